@@ -1,0 +1,57 @@
+"""Data files of instructions with their programs (language.md section 7): JSON Lines, one record a line."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from wayword.compiler import VehicleStatus
+
+
+class DatasetError(Exception):
+    """A data file that can't be read. The message names the file and the line."""
+
+
+class Record(BaseModel):
+    """An instruction with the program that it means.
+
+    Attributes:
+        id: Unique in its file.
+        instruction: What the passenger says.
+        program: The program in canonical form.
+        category: The command type of the program's first command.
+        status: The vehicle status to translate under, None for the default one.
+        places: The names on the map, None for the town's.
+        tags: For breakdowns.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    id: str
+    instruction: str
+    program: str
+    category: str
+    status: VehicleStatus | None = None
+    places: tuple[str, ...] | None = None
+    tags: tuple[str, ...] = ()
+
+
+def read_records(path: Path) -> Iterator[Record]:
+    """Reads a data file.
+
+    Raises:
+        DatasetError: The file or one of its lines can't be read.
+    """
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise DatasetError(f"{path}: {error}") from error
+    for number, line in enumerate(lines, start=1):
+        if not line.strip():
+            continue
+        try:
+            yield Record.model_validate_json(line)
+        except ValidationError as error:
+            first = error.errors()[0]
+            where = ".".join(str(part) for part in first["loc"]) or "record"
+            raise DatasetError(f"{path}:{number}: {where}: {first['msg']}") from error

@@ -1,0 +1,97 @@
+"""Words to programs: the first model stage."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import exp
+from time import perf_counter
+
+from wayword.compiler import VehicleStatus
+from wayword.grammar import constraint
+from wayword.models.backend import LanguageModel
+from wayword.models.prompt import constant_messages, prompt_messages
+
+MAX_INSTRUCTION_CHARACTERS = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Translation:
+    """A program that a model made of an instruction.
+
+    Attributes:
+        program: The program's text. Under the constraint it always parses, unless `finished` is False.
+        latency_ms: Wall-clock time that it took.
+        tokens: Number of tokens in the program.
+        forced_tokens: How many of these took no evaluation of the model.
+        confidence: Geometric mean of the tokens' probabilities under the unconstrained model, 0 to 1.
+        finished: Whether the program is complete rather than cut off at the token limit.
+    """
+
+    program: str
+    latency_ms: float
+    tokens: int
+    forced_tokens: int
+    confidence: float
+    finished: bool
+
+
+class InstructionTooLongError(ValueError):
+    """The instruction is longer than any passenger's sentence."""
+
+
+class Translator:
+    """Translates instructions for the places of one map.
+
+    Args:
+        model: The language model.
+        places: Names on the loaded map; the constraint lets no other place through.
+    """
+
+    def __init__(self, model: LanguageModel, places: Sequence[str]) -> None:
+        self.model = model
+        self.places = tuple(places)
+        self._gbnf = constraint(self.places)
+
+    def prepare(self) -> None:
+        """Reads the constant part of the prompt ahead of the first instruction."""
+        self.model.prepare(constant_messages(self.places))
+
+    def translate(
+        self,
+        instruction: str,
+        status: VehicleStatus | None = None,
+        *,
+        constrained: bool = True,
+        temperature: float = 0.0,
+        seed: int = 0,
+    ) -> Translation:
+        """Translates one instruction.
+
+        Args:
+            instruction: What the passenger said.
+            status: The vehicle's status, None for the default one.
+            constrained: Whether the model can only emit programs.
+            temperature: 0 takes the most probable token each time.
+            seed: For temperatures above 0.
+
+        Raises:
+            InstructionTooLongError: The instruction has more than 1,000 characters.
+        """
+        if len(instruction) > MAX_INSTRUCTION_CHARACTERS:
+            raise InstructionTooLongError(
+                f"the instruction has {len(instruction)} characters, at most {MAX_INSTRUCTION_CHARACTERS} are read"
+            )
+        started = perf_counter()
+        completion = self.model.complete(
+            prompt_messages(instruction, status or VehicleStatus(), self.places),
+            gbnf=self._gbnf if constrained else None,
+            temperature=temperature,
+            seed=seed,
+        )
+        return Translation(
+            program=completion.text,
+            latency_ms=(perf_counter() - started) * 1000,
+            tokens=completion.tokens,
+            forced_tokens=completion.forced_tokens,
+            confidence=exp(completion.mean_log_probability),
+            finished=completion.finished,
+        )

@@ -1,0 +1,112 @@
+"""What the commands share: lazy loading, errors, output, loading of maps and models."""
+
+import json
+import sys
+from collections.abc import Callable
+from functools import wraps
+from importlib import import_module
+from pathlib import Path
+from typing import Any, NoReturn, ParamSpec, TypeVar
+
+import click
+from rich.console import Console
+
+FAILED, BAD_INPUT = 1, 2
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+errors = Console(stderr=True, highlight=False)
+
+
+class LazyGroup(click.Group):
+    """A group that imports a command only when it is used, so that ``wayword grammar`` need not load a simulator."""
+
+    def __init__(self, *args: Any, commands_at: dict[str, str] | None = None, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._commands_at = commands_at or {}
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Names of the commands, in the order of their declaration."""
+        return [*self._commands_at, *super().list_commands(ctx)]
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Imports a command."""
+        if cmd_name not in self._commands_at:
+            return super().get_command(ctx, cmd_name)
+        module, name = self._commands_at[cmd_name].split(":")
+        command = getattr(import_module(module), name)
+        assert isinstance(command, click.Command)
+        return command
+
+
+def json_option(command: Callable[P, R]) -> Callable[P, R]:
+    """Adds ``--json``."""
+    option = click.option(
+        "--json",
+        "as_json",
+        is_flag=True,
+        help="Print exactly one JSON object on standard output, for machines.",
+    )
+    return option(command)
+
+
+def map_option(command: Callable[P, R]) -> Callable[P, R]:
+    """Adds ``--map``."""
+    option = click.option("--map", "map_name", default="town", show_default=True, help="Map: a name or a YAML file.")
+    return option(command)
+
+
+def model_option(command: Callable[P, R]) -> Callable[P, R]:
+    """Adds ``--model``."""
+    option = click.option(
+        "--model", envvar="WAYWORD_MODEL", help="GGUF file of a language model (default: the embedded one)."
+    )
+    return option(command)
+
+
+def friendly_errors(*expected: type[Exception]) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Turns expected exceptions into a message and exit status 2: users never see a traceback."""
+
+    def decorate(command: Callable[P, R]) -> Callable[P, R]:
+        @wraps(command)
+        def run(*args: P.args, **kwargs: P.kwargs) -> R:
+            try:
+                return command(*args, **kwargs)
+            except expected as error:
+                fail(str(error), as_json=bool(kwargs.get("as_json")))
+
+        return run
+
+    return decorate
+
+
+def fail(message: str, *, as_json: bool) -> NoReturn:
+    """Ends with exit status 2 and a message."""
+    if as_json:
+        print_json({"error": message})
+    errors.print(f"[bold red]error:[/] {_escape(message)}", soft_wrap=True)
+    sys.exit(BAD_INPUT)
+
+
+def print_json(value: object) -> None:
+    """Prints one JSON object on standard output."""
+    click.echo(json.dumps(value, ensure_ascii=False, indent=2))
+
+
+def read_source(source: str, *, as_json: bool) -> str:
+    """Reads a program from a file, or from standard input where the name is ``-``."""
+    try:
+        if source == "-":
+            return sys.stdin.buffer.read().decode("utf-8")
+        return Path(source).read_text(encoding="utf-8")
+    except OSError as error:
+        fail(f"{source}: {error.strerror}", as_json=as_json)
+    except UnicodeDecodeError:
+        fail(f"{source}: is not UTF-8 text", as_json=as_json)
+
+
+def _escape(text: str) -> str:
+    from rich.markup import escape
+
+    return escape(text)

@@ -1,0 +1,199 @@
+"""``wayword drive``: a whole trip, from sentences to a moving car."""
+
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from wayword.cli.common import FAILED, errors, fail, friendly_errors, json_option, model_option, print_json
+from wayword.cli.trace import Trace, summary
+from wayword.models import ModelNotFoundError, Translator, model_path
+from wayword.runtime.drive import RunResult
+from wayword.runtime.maps import MapError, load_map
+from wayword.runtime.plots import plot_map, plot_velocity
+from wayword.runtime.scenario import Scenario, ScenarioError, load_scenario, with_instructions
+from wayword.runtime.sweep import run_gold, sweep_gold, sweep_translated
+
+
+@click.command(short_help="Drive a scenario: from sentences to a moving car.")
+@click.option("--scenario", "name", default="reference", show_default=True, help="A scenario's name or YAML file.")
+@click.option(
+    "--text",
+    "texts",
+    multiple=True,
+    is_flag=False,
+    flag_value="",
+    metavar="[TEXT]",
+    help="Say this in place of the scenario's instructions; may be given several times. Alone, without TEXT: take "
+    "the scenario's instructions as text (the default).",
+)
+@click.option("--programs", is_flag=True, help="Take the gold programs: no model, the vehicle alone is judged.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the (first) run.")
+@click.option("--runs", type=click.IntRange(min=1), default=1, show_default=True, help="Runs, with a seed each.")
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes for --programs runs (default: all cores).")
+@click.option(
+    "--as-translated",
+    is_flag=True,
+    help="Drive wrong translations too. By default they are reported and the gold program is driven instead.",
+)
+@click.option("--out", type=click.Path(path_type=Path), default=Path("out"), show_default=True, help="Output folder.")
+@model_option
+@json_option
+@friendly_errors(ScenarioError, MapError, ModelNotFoundError)
+def drive(
+    name: str,
+    texts: tuple[str, ...],
+    programs: bool,
+    seed: int,
+    runs: int,
+    jobs: int | None,
+    as_translated: bool,
+    out: Path,
+    model: str | None,
+    as_json: bool,
+) -> None:
+    """Drive a scenario with the language model in the loop, and judge the run.
+
+    Each instruction is shown with its program, executor instructions, outcome and feedback. The event log (JSON
+    Lines), the velocity over time and the map with the driven route are written below the output folder. Ends with
+    exit status 1 if an instruction was mistranslated or anything else went wrong.
+
+    \b
+    Examples:
+      wayword drive --scenario reference
+      wayword drive --programs --runs 30
+      wayword drive --text "Start." --text "How fast are we going?"
+    """
+    scenario = load_scenario(name)
+    own = [text for text in texts if text.strip()]
+    if own and programs:
+        fail("--programs has no gold programs for your own --text; leave out one of the two", as_json=as_json)
+    if own:
+        scenario = with_instructions(scenario, own)
+    seeds = range(seed, seed + runs)
+    console = Console(quiet=as_json, highlight=False)
+    _announce(console, scenario, seeds)
+    if programs:
+        results = _drive_gold(console, scenario, seeds, out, jobs or os.cpu_count() or 1)
+    else:
+        translator = _load(model, scenario)
+        results = _drive_translated(console, scenario, seeds, out, translator, as_translated)
+    finished = _with_plots(console, results)
+    if as_json:
+        print_json(to_json(finished))
+    elif runs > 1:
+        _print_sweep(console, finished)
+    if not all(result.success for result in finished):
+        sys.exit(FAILED)
+
+
+def to_json(results: Sequence[RunResult]) -> dict[str, object]:
+    """The machine-readable verdict on all runs."""
+    successes = sum(result.success for result in results)
+    outcomes: Counter[str] = Counter()
+    for result in results:
+        outcomes.update(result.outcomes)
+    return {
+        "runs": len(results),
+        "successes": successes,
+        "success_rate": successes / len(results),
+        "collisions": sum(result.collisions for result in results),
+        "red_lights_run": sum(result.red_lights_run for result in results),
+        "red_lights_overridden": sum(result.red_lights_overridden for result in results),
+        "outcomes": dict(sorted(outcomes.items())),
+        "details": [
+            {
+                "seed": result.seed,
+                "success": result.success,
+                "mistranslated": [step.step.id for step in result.mistranslated],
+                "failures": result.failures,
+                "duration_s": round(result.duration_s, 1),
+                "log": str(result.log),
+            }
+            for result in sorted(results, key=lambda result: result.seed)
+        ],
+    }
+
+
+def _announce(console: Console, scenario: Scenario, seeds: range) -> None:
+    which = f"seed {seeds[0]}" if len(seeds) == 1 else f"seeds {seeds[0]} to {seeds[-1]}"
+    console.print(f"[bold]{scenario.title}[/]")
+    console.print(f"[dim]scenario {scenario.name}, map {scenario.map}, {scenario.vehicles} other cars, {which}[/]")
+
+
+def _load(model: str | None, scenario: Scenario) -> Translator:
+    from wayword.models.embedded import EmbeddedModel
+
+    path = model_path(model)
+    with errors.status(f"reading {path.name} and the knowledge base …"):
+        translator = Translator(EmbeddedModel(path), load_map(scenario.map).place_names)
+        translator.prepare()
+    return translator
+
+
+def _drive_gold(console: Console, scenario: Scenario, seeds: range, out: Path, jobs: int) -> Iterator[RunResult]:
+    if len(seeds) > 1:
+        yield from _with_bar(console, sweep_gold(scenario, seeds, out, jobs), len(seeds))
+        return
+    with console.status("") as status:
+        result = run_gold(scenario, seeds[0], out, Trace(console, status, seeds[0]))
+    yield result
+
+
+def _drive_translated(
+    console: Console, scenario: Scenario, seeds: range, out: Path, translator: Translator, as_translated: bool
+) -> Iterator[RunResult]:
+    if len(seeds) > 1:
+        results = sweep_translated(scenario, seeds, out, translator, as_translated=as_translated)
+        yield from _with_bar(console, results, len(seeds))
+        return
+    with console.status("") as status:
+        trace = Trace(console, status, seeds[0])
+        results = sweep_translated(
+            scenario, seeds, out, translator, as_translated=as_translated, watcher=lambda _: trace
+        )
+        result = next(results)
+    yield result
+
+
+def _with_bar(console: Console, results: Iterator[RunResult], total: int) -> Iterator[RunResult]:
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=errors if console.quiet else console) as progress:
+        task = progress.add_task("driving", total=total)
+        successes = 0
+        for result in results:
+            successes += result.success
+            progress.update(task, advance=1, description=f"driving, {successes} successful")
+            yield result
+
+
+def _with_plots(console: Console, results: Iterator[RunResult]) -> list[RunResult]:
+    finished = list(results)
+    for result in finished:
+        velocity, map_ = result.log.with_name("velocity.png"), result.log.with_name("map.png")
+        plot_velocity(result.log, velocity)
+        plot_map(result.log, map_)
+        if len(finished) == 1:
+            console.print()
+            console.print(summary(result))
+            for path in (result.log, velocity, map_):
+                console.print(f"[dim]wrote[/] {path}", soft_wrap=True)
+    return finished
+
+
+def _print_sweep(console: Console, results: Sequence[RunResult]) -> None:
+    for result in sorted(results, key=lambda result: result.seed):
+        if not result.success:
+            wrong = [f"{step.step.id} mistranslated" for step in result.mistranslated]
+            console.print(f"[red]seed {result.seed}[/]: " + "; ".join([*wrong, *result.failures]), soft_wrap=True)
+    total = to_json(results)
+    console.print(
+        f"\n[bold]task success {total['successes']} of {total['runs']}[/] ({total['success_rate']:.1%}), "
+        f"{total['collisions']} collisions, {total['red_lights_run']} red lights run"
+    )
+    console.print(f"[dim]logs and plots in {results[0].log.parent.parent}[/]", soft_wrap=True)

@@ -1,0 +1,132 @@
+"""Shows a drive on the terminal while it runs: each stage of each instruction, and where the car is."""
+
+from collections.abc import Callable
+
+from rich.console import Console
+from rich.markup import escape
+from rich.status import Status
+from rich.table import Table
+
+from wayword.runtime.drive import Progress, RunResult, StepResult
+from wayword.runtime.outcome import Outcome
+
+_COLOURS = {Outcome.SUCCEEDED: "green", Outcome.REFUSED: "yellow"}
+_LABEL_WIDTH = 13
+
+
+class Trace:
+    """A watcher of one run that prints what is new.
+
+    Args:
+        console: Where to print.
+        status: The line at the bottom that is kept up to date.
+        seed: The run's seed, named in that line.
+    """
+
+    def __init__(self, console: Console, status: Status, seed: int) -> None:
+        self._console = console
+        self._status = status
+        self._seed = seed
+        self._shown: set[tuple[str, str]] = set()
+
+    def __call__(self, progress: Progress) -> None:
+        """Takes note of progress."""
+        state = progress.state
+        waiting = f", waiting for the moment of {progress.waiting_for.id}" if progress.waiting_for else ""
+        self._status.update(
+            f"seed {self._seed}: {state.time_s:6.1f} s, {state.speed_mps * 3.6:3.0f} km/h, {state.road}{waiting}"
+        )
+        if progress.steps:
+            self._show(progress.steps[-1])
+
+    def _show(self, result: StepResult) -> None:
+        exchange = result.exchange
+        self._once(result, "instruction", lambda: self._instruction(result))
+        if exchange.translation is not None:
+            self._once(result, "translation", lambda: self._translation(result))
+        if exchange.compilation is not None:
+            self._once(result, "compilation", lambda: self._compilation(result))
+        if exchange.done:
+            self._once(result, "outcome", lambda: self._outcome(result))
+
+    def _once(self, result: StepResult, stage: str, show: Callable[[], None]) -> None:
+        if (result.step.id, stage) not in self._shown:
+            self._shown.add((result.step.id, stage))
+            show()
+
+    def _instruction(self, result: StepResult) -> None:
+        exchange = result.exchange
+        self._console.print(
+            f"\n[bold magenta]{result.step.id}[/] [dim]at {exchange.time_s:.1f} s[/]  "
+            f"[bold]“{escape(exchange.instruction)}”[/]"
+        )
+
+    def _translation(self, result: StepResult) -> None:
+        translation = result.exchange.translation
+        assert translation is not None
+        times = f"{translation.latency_ms:.0f} ms, {translation.tokens} tokens"
+        if not result.mistranslated:
+            self._line(
+                "translated",
+                f"[green]as the gold program[/] [dim]{times}[/]" if result.step.program else times,
+            )
+            return
+        self._line("translated", f"[bold red]wrongly[/] [dim]{times}[/]")
+        self._program(translation.program)
+        self._line("expected", "[dim]the gold program:[/]")
+
+    def _compilation(self, result: StepResult) -> None:
+        compilation = result.exchange.compilation
+        assert compilation is not None
+        self._line("program", "")
+        self._program(compilation.source)
+        instructions = [str(i) for command in compilation.commands for i in command.instructions]
+        for number, instruction in enumerate(instructions):
+            self._line("" if number else "instructions", escape(instruction))
+        for diagnostic in compilation.diagnostics:
+            self._line("diagnostic", f"[red]{diagnostic.code.name}[/] {escape(diagnostic.message)}")
+        self._line("", f"[dim]compiled in {result.exchange.compile_ms:.2f} ms[/]")
+
+    def _outcome(self, result: StepResult) -> None:
+        exchange = result.exchange
+        for report in exchange.run.reports if exchange.run else ():
+            colour = _COLOURS.get(report.outcome, "red")
+            rationale = f" ({report.rationale})" if report.rationale else ""
+            took = report.ended_s - report.started_s
+            self._line(
+                "outcome",
+                f"[{colour}]{report.outcome.value}[/]{escape(rationale)} [dim]at {report.ended_s:.1f} s, after "
+                f"{took:.1f} s[/]",
+            )
+        self._line("feedback", f"[cyan]“{escape(exchange.feedback or '')}”[/]")
+
+    def _line(self, label: str, text: str) -> None:
+        self._console.print(f"   [dim]{label:<{_LABEL_WIDTH}}[/]{text}", soft_wrap=True)
+
+    def _program(self, program: str) -> None:
+        indent = " " * (_LABEL_WIDTH + 3)
+        for line in program.rstrip("\n").split("\n"):
+            self._console.print(f"{indent}[dim]│[/] {escape(line)}", soft_wrap=True)
+
+
+def summary(result: RunResult) -> Table:
+    """The verdict on one run."""
+    table = Table.grid(padding=(0, 2))
+    verdict = "[bold green]success[/]" if result.success else "[bold red]no success[/]"
+    table.add_row("[bold]verdict[/]", verdict)
+    translated = [step for step in result.steps if step.exchange.translation is not None and step.step.program]
+    if translated:
+        right = len(translated) - len(result.mistranslated)
+        table.add_row("translated", f"{right} of {len(translated)} instructions as the gold programs")
+    for step in result.mistranslated:
+        table.add_row("[red]mistranslated[/]", f"{step.step.id} “{escape(step.exchange.instruction)}”")
+    for failure in result.failures:
+        table.add_row("[red]failure[/]", escape(failure))
+    table.add_row("outcomes", ", ".join(f"{count} {outcome}" for outcome, count in sorted(result.outcomes.items())))
+    table.add_row(
+        "safety",
+        f"{result.collisions} collisions, {result.red_lights_run} red lights run, "
+        f"{result.red_lights_overridden} passed on the passenger's word",
+    )
+    table.add_row("duration", f"{result.duration_s:.0f} simulated seconds")
+    return table

@@ -1,0 +1,109 @@
+"""``wayword translate``: words to a program."""
+
+import sys
+from time import perf_counter
+
+import click
+from pydantic import ValidationError
+
+from wayword.cli.common import (
+    FAILED,
+    errors,
+    fail,
+    friendly_errors,
+    json_option,
+    map_option,
+    model_option,
+    print_json,
+)
+from wayword.compiler import VehicleStatus, compile_program, render_all
+from wayword.models import InstructionTooLongError, ModelNotFoundError, Translator, model_path
+from wayword.runtime.maps import MapError, load_map
+
+
+@click.command(short_help="Translate a passenger's words into a program.")
+@click.argument("text")
+@map_option
+@model_option
+@click.option(
+    "--status",
+    "status_json",
+    metavar="JSON",
+    help='Vehicle status, for example \'{"speed_kmh": 40, "under_way": true}\'.',
+)
+@click.option("--no-constraint", is_flag=True, help="Let the bare model speak, without the grammar.")
+@click.option("--temperature", type=click.FloatRange(min=0), default=0.0, show_default=True, help="0: most probable.")
+@click.option("--seed", type=int, default=0, show_default=True, help="For temperatures above 0.")
+@json_option
+@friendly_errors(MapError, ModelNotFoundError, InstructionTooLongError)
+def translate(
+    text: str,
+    map_name: str,
+    model: str | None,
+    status_json: str | None,
+    no_constraint: bool,
+    temperature: float,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Translate TEXT, what a passenger says, into a program of the Wayword language, offline.
+
+    The program goes to standard output, so that it can be piped into `wayword compile -`.
+
+    \b
+    Examples:
+      wayword translate "Turn left at the next crossing."
+      wayword translate --json "No faster than fifty."
+      wayword translate --no-constraint "Take me home."
+    """
+    if not text.strip():
+        fail("there is no instruction: TEXT is empty", as_json=as_json)
+    status = _status(status_json, as_json)
+    translator, load_ms = _load(model, load_map(map_name).place_names)
+    result = translator.translate(text, status, constrained=not no_constraint, temperature=temperature, seed=seed)
+    compiled = compile_program(result.program, translator.places)
+    if as_json:
+        print_json(
+            {
+                "program": result.program,
+                "latency_ms": round(result.latency_ms, 1),
+                "tokens": result.tokens,
+                "forced_tokens": result.forced_tokens,
+                "confidence": round(result.confidence, 4),
+                "model": translator.model.name,
+                "constrained": not no_constraint,
+                "load_ms": round(load_ms, 1),
+                "compiles": compiled.ok,
+                "diagnostics": [diagnostic.to_json() for diagnostic in compiled.diagnostics],
+            }
+        )
+    else:
+        click.echo(result.program, nl=not result.program.endswith("\n"))
+        seconds, rate = result.latency_ms / 1000, result.tokens / result.latency_ms * 1000
+        errors.print(f"[dim]{result.tokens} tokens in {seconds:.2f} s ({rate:.0f}/s), {translator.model.name}[/]")
+        if not compiled.ok and not no_constraint:
+            click.echo(render_all(compiled.diagnostics, result.program, "<translation>"), err=True)
+    if not compiled.ok and not no_constraint:
+        sys.exit(FAILED)
+
+
+def _status(status_json: str | None, as_json: bool) -> VehicleStatus:
+    if status_json is None:
+        return VehicleStatus()
+    try:
+        return VehicleStatus.model_validate_json(status_json)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(part) for part in first["loc"])
+        fail(f"--status{' ' + where if where else ''}: {first['msg']}", as_json=as_json)
+
+
+def _load(model: str | None, places: tuple[str, ...]) -> tuple[Translator, float]:
+    from wayword.models.embedded import EmbeddedModel
+
+    path = model_path(model)
+    started = perf_counter()
+    with errors.status(f"reading {path.name} and the knowledge base …"):
+        translator = Translator(EmbeddedModel(path), places)
+        translator.prepare()
+    return translator, (perf_counter() - started) * 1000

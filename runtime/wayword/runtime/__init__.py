@@ -1,0 +1,1 @@
+"""The runtime: a simulated world, the driving stack's seam, validator, executor, co-pilot, scenarios and records."""

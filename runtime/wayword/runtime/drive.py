@@ -1,0 +1,325 @@
+"""Drives a scenario: the world, the passenger who speaks at the right moments, and the verdict."""
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from wayword.compiler import compile_program, equivalent
+from wayword.models import Translator
+from wayword.runtime.copilot import CoPilot, Exchange
+from wayword.runtime.outcome import Outcome
+from wayword.runtime.recording import Recorder
+from wayword.runtime.scenario import Scenario, Step, Trigger
+from wayword.runtime.vehicle import VehicleState
+from wayword.runtime.world import Fault, Map, World
+
+STANDSTILL_MPS = 0.1
+
+
+@dataclass(slots=True)
+class StepResult:
+    """What became of one instruction of a scenario.
+
+    Attributes:
+        step: The scenario's step.
+        exchange: Its way through the stages.
+        mistranslated: Whether the model's program differs from the gold one.
+    """
+
+    step: Step
+    exchange: Exchange
+    mistranslated: bool = False
+
+    @property
+    def outcomes(self) -> list[Outcome]:
+        """The outcomes of its commands so far."""
+        return [report.outcome for report in self.exchange.run.reports] if self.exchange.run else []
+
+
+@dataclass(slots=True)
+class RunResult:
+    """One run of a scenario.
+
+    Attributes:
+        scenario: Its name.
+        seed: Its seed.
+        log: The event log.
+        steps: What became of each instruction.
+        failures: Everything that went wrong other than a translation.
+        duration_s: Simulated duration.
+        collisions: Collisions of our vehicle.
+        red_lights_run: Red lights that it passed without the passenger's override.
+        red_lights_overridden: Red lights that it passed on the passenger's word.
+    """
+
+    scenario: str
+    seed: int
+    log: Path
+    steps: list[StepResult] = field(default_factory=list)
+    failures: list[str] = field(default_factory=list)
+    duration_s: float = 0.0
+    collisions: int = 0
+    red_lights_run: int = 0
+    red_lights_overridden: int = 0
+
+    @property
+    def mistranslated(self) -> list[StepResult]:
+        """The instructions that the model got wrong."""
+        return [step for step in self.steps if step.mistranslated]
+
+    @property
+    def success(self) -> bool:
+        """Whether every instruction was translated and carried out as it should be, safely."""
+        return not self.failures and not self.mistranslated
+
+    @property
+    def outcomes(self) -> Counter[str]:
+        """How many commands had which outcome."""
+        return Counter(outcome.value for step in self.steps for outcome in step.outcomes)
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """What a watcher of a run is told, after every step of the world and every stage of an instruction.
+
+    Attributes:
+        state: The vehicle's state.
+        steps: The instructions so far.
+        waiting_for: The step whose moment has not come yet, if any.
+    """
+
+    state: VehicleState
+    steps: list[StepResult]
+    waiting_for: Step | None
+
+
+Watcher = Callable[[Progress], None]
+
+
+class Drive:
+    """One run of a scenario with one seed.
+
+    Args:
+        scenario: What to drive.
+        map_: The scenario's map.
+        seed: For everything random in the world.
+        log: Where the event log goes.
+        translator: The model stage; None takes the gold programs.
+        as_translated: Whether a program that differs from the gold one is driven nevertheless. By default it is
+            reported, and the gold one is driven in its place, so that the rest of the trip can be judged as well.
+        watcher: Told about progress.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        map_: Map,
+        seed: int,
+        log: Path,
+        translator: Translator | None = None,
+        *,
+        as_translated: bool = False,
+        watcher: Watcher | None = None,
+    ) -> None:
+        self._scenario = scenario
+        self._translator = translator
+        self._as_translated = as_translated
+        self._watcher = watcher
+        self._log = log
+        self._seed = seed
+        self._world = World(
+            map_,
+            seed=seed,
+            vehicles=scenario.vehicles,
+            faults=tuple(Fault(fault.kind, fault.junction, fault.state) for fault in scenario.faults),
+            start=scenario.start,
+            destination=scenario.destination,
+        )
+        self._result = RunResult(scenario.name, seed, log)
+        self._answered_s = 0.0
+        self._speeds: list[tuple[float, float]] = []  # time [s], speed [m/s]
+
+    def run(self) -> RunResult:
+        """Drives the whole scenario and judges it."""
+        with Recorder(self._log) as recorder:
+            recorder.record(
+                "session",
+                0.0,
+                scenario=self._scenario.name,
+                map=self._scenario.map,
+                seed=self._seed,
+                version=1,
+            )
+            self._copilot = CoPilot(self._world.vehicle, recorder)
+            self._recorder = recorder
+            for step in self._scenario.steps:
+                if not self._wait_for(step):
+                    break
+                self._take(step)
+            self._drive_on(self._scenario.tail_s)
+            self._judge()
+            recorder.record(
+                "end",
+                self._world.time_s,
+                success=self._result.success,
+                failures=self._result.failures,
+                mistranslated=[result.step.id for result in self._result.mistranslated],
+                collisions=self._result.collisions,
+                red_lights_run=self._result.red_lights_run,
+                red_lights_overridden=self._result.red_lights_overridden,
+                outcomes=dict(self._result.outcomes),
+            )
+        return self._result
+
+    def _wait_for(self, step: Step) -> bool:
+        """Drives until the step's moment has come; False where the run has to be broken off."""
+        began = self._world.time_s
+        while not self._due(step.when):
+            if self._world.time_s - began > step.within_s:
+                self._fail(f"{step.id}: the moment to say it did not come within {step.within_s:g} s")
+                return True
+            if not self._tick(step):
+                return False
+        return True
+
+    def _take(self, step: Step) -> None:
+        """Takes an instruction through the stages and drives until the passenger is answered."""
+        exchange = self._copilot.begin(step.id, step.say)
+        result = StepResult(step, exchange)
+        self._result.steps.append(result)
+        self._tell(None)
+        program = step.program
+        if self._translator is not None:
+            self._copilot.translate(exchange, self._translator)
+            translated = exchange.translation.program if exchange.translation else None
+            result.mistranslated = step.program is not None and not self._same(translated, step.program)
+            if result.mistranslated:
+                self._recorder.record("mistranslation", self._world.time_s, id=step.id, expected=step.program)
+            if not result.mistranslated or self._as_translated:
+                program = translated
+        self._tell(None)
+        self._copilot.execute(exchange, program)
+        self._tell(None)
+        while not exchange.done:
+            if not self._tick(None):
+                self._fail(f"{step.id}: no outcome when the run was broken off")
+                return
+        self._answered_s = self._world.time_s
+        self._tell(None)
+        if step.expect is not None and any(outcome is not step.expect for outcome in result.outcomes):
+            got = ", ".join(outcome.value for outcome in result.outcomes)
+            self._fail(f"{step.id}: expected {step.expect.value}, got {got}: {exchange.feedback}")
+
+    def _same(self, program: str | None, gold: str) -> bool:
+        if program is None:
+            return False
+        places = self._world.vehicle.places
+        ours, expected = compile_program(program, places).program, compile_program(gold, places).program
+        return ours is not None and expected is not None and equivalent(ours, expected)
+
+    def _due(self, trigger: Trigger) -> bool:
+        if self._world.time_s - self._answered_s < trigger.after_s:
+            return False
+        if trigger.misread_as_red is not None and not self._misread_as_red(trigger.misread_as_red):
+            return False
+        if trigger.next_manoeuvre is None:
+            return True
+        state = self._world.vehicle.state()
+        distance = state.next_manoeuvre_distance_m
+        return (
+            state.next_manoeuvre == trigger.next_manoeuvre
+            and distance is not None
+            and trigger.beyond_m <= distance <= trigger.within_m
+        )
+
+    def _misread_as_red(self, remaining_s: float) -> bool:
+        light = self._world.true_light_ahead()
+        standing = self._world.vehicle.state().speed_mps < STANDSTILL_MPS
+        return (
+            standing
+            and light is not None
+            and (light.true_state, light.perceived_state) == ("green", "red")
+            and light.remaining_s >= remaining_s
+        )
+
+    def _drive_on(self, duration_s: float) -> None:
+        until = self._world.time_s + duration_s
+        while self._world.time_s < until and self._tick(None):
+            pass
+
+    def _tick(self, waiting_for: Step | None) -> bool:
+        """One step of the world; False once the run has taken too long."""
+        if self._world.time_s >= self._scenario.max_s:
+            message = f"broken off after {self._scenario.max_s:g} s"
+            if message not in self._result.failures:
+                self._fail(message)
+            return False
+        self._world.step()
+        self._copilot.step()
+        self._record_state()
+        self._tell(waiting_for)
+        return True
+
+    def _record_state(self) -> None:
+        state = self._world.vehicle.state()
+        light = self._world.true_light_ahead()
+        self._speeds.append((state.time_s, state.speed_mps))
+        self._recorder.record(
+            "state",
+            state.time_s,
+            x=round(state.x_m, 3),
+            y=round(state.y_m, 3),
+            heading=round(state.heading_rad, 4),
+            speed=round(state.speed_mps, 3),
+            acceleration=round(state.acceleration_mps2, 3),
+            lateral_acceleration=round(state.lateral_acceleration_mps2, 3),
+            mode=state.mode.value,
+            road=state.road,
+            lane=state.lane,
+            limit=round(state.speed_limit_mps, 3),
+            light=state.traffic_light,
+            true_light=light.true_state if light else None,
+            binding=state.binding.constraint,
+            indicator=state.indicator,
+            others=[[round(value, 2) for value in other] for other in self._world.others()],
+        )
+
+    def _judge(self) -> None:
+        result, monitor = self._result, self._world.monitor
+        result.duration_s = self._world.time_s
+        result.collisions = monitor.collisions
+        result.red_lights_run = monitor.red_lights_run
+        result.red_lights_overridden = monitor.red_lights_overridden
+        if monitor.collisions:
+            self._fail(f"{monitor.collisions} collision(s)")
+        if monitor.red_lights_run:
+            self._fail(f"{monitor.red_lights_run} red light(s) run")
+        if self._scenario.standstill_at_end and self._world.vehicle.state().speed_mps > STANDSTILL_MPS:
+            self._fail("the vehicle does not stand at the end")
+        for failure in self._speed_failures():
+            self._fail(failure)
+
+    def _speed_failures(self) -> list[str]:
+        failures = []
+        for check in self._scenario.speed_checks:
+            ended = [
+                report.ended_s
+                for result in self._result.steps
+                if result.step.id == check.after and result.exchange.run is not None
+                for report in result.exchange.run.reports
+            ]
+            if not ended:
+                continue
+            since_s = max(ended) + check.settle_s
+            fastest = 3.6 * max((speed for time, speed in self._speeds if time >= since_s), default=0.0)
+            if fastest > check.at_most_kmh:
+                failures.append(f"{fastest:.1f} km/h after {check.after}, where {check.at_most_kmh:g} km/h is the most")
+        return failures
+
+    def _fail(self, message: str) -> None:
+        self._result.failures.append(message)
+
+    def _tell(self, waiting_for: Step | None) -> None:
+        if self._watcher is not None:
+            self._watcher(Progress(self._world.vehicle.state(), self._result.steps, waiting_for))

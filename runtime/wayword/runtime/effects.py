@@ -1,0 +1,136 @@
+"""What the executor does for each effect and how it sees that a condition holds.
+
+An effect gives what the executor has to watch or report, or the vehicle's refusal.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from wayword.compiler import Do, Scalar
+from wayword.runtime.answers import answer, kmh
+from wayword.runtime.vehicle import (
+    FactValue,
+    Manoeuvre,
+    ManoeuvreState,
+    OperationMode,
+    Refusal,
+    TurnDirection,
+    VehicleInterface,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """An effect that was accepted.
+
+    Attributes:
+        facts: What the report can tell about it.
+        manoeuvre: The manoeuvre that it started, for ``AWAIT`` to watch.
+    """
+
+    facts: Mapping[str, FactValue] = field(default_factory=dict)
+    manoeuvre: Manoeuvre | None = None
+
+
+EffectHandler = Callable[[VehicleInterface, Do], Effect | Refusal]
+Condition = Callable[[VehicleInterface, Manoeuvre | None], bool]
+
+
+def _answer(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
+    return Effect(answer(do.word("item"), vehicle.state(), vehicle.settings()))
+
+
+def _set_destination(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
+    place = do.word("place")
+    parked = vehicle.state().mode is OperationMode.PARKED
+    return vehicle.set_destination(place) or Effect({"destination": place, "variant": "parked" if parked else None})
+
+
+def _start(vehicle: VehicleInterface, _: Do) -> Effect | Refusal:
+    return vehicle.start() or Effect({"destination": vehicle.state().destination})
+
+
+def _stop(vehicle: VehicleInterface, _: Do) -> Effect | Refusal:
+    destination = vehicle.state().destination
+    return vehicle.stop() or Effect(
+        {"destination": destination, "variant": "no_destination" if destination is None else None}
+    )
+
+
+def _emergency_stop(vehicle: VehicleInterface, _: Do) -> Effect | Refusal:
+    return vehicle.emergency_stop() or Effect()
+
+
+def _set_parameter(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
+    name, value = do.word("name"), do.operand("value")
+    number = value.value if isinstance(value, Scalar) else str(value)
+    refusal = vehicle.set_parameter(name, number)
+    if refusal is not None:
+        return refusal
+    facts: dict[str, FactValue] = {"parameter": name}
+    if name == "max_vel" and isinstance(number, float):
+        limit = vehicle.state().speed_limit_mps
+        facts |= {"max_vel_kmh": kmh(number), "limit_kmh": kmh(limit)}
+        facts["variant"] = "above_limit" if number > limit else None
+    return Effect(facts)
+
+
+_TURNS: dict[str, TurnDirection] = {"left": "left", "right": "right", "straight": "straight"}
+
+
+def _turn(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
+    direction = do.word("direction")
+    if direction not in _TURNS:
+        return Refusal("unsupported_turn", {"direction": direction})
+    variant = "straight" if direction == "straight" else None
+    return _started(vehicle.request_turn(_TURNS[direction]), {"direction": direction, "variant": variant})
+
+
+def _change_lane(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
+    side = do.word("direction")
+    return _started(vehicle.request_lane_change("left" if side == "left" else "right"), {"direction": side})
+
+
+def _override_traffic_light(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
+    state = do.word("state")
+    refusal = vehicle.override_traffic_light("green" if state == "green" else "red")
+    return refusal or Effect({"state": state})
+
+
+def _reject(_: VehicleInterface, do: Do) -> Effect | Refusal:
+    return Refusal(f"reject_{do.word('reason')}")
+
+
+def _ask(_: VehicleInterface, do: Do) -> Effect | Refusal:
+    return Refusal(f"clarify_{do.word('about')}")
+
+
+def _started(manoeuvre: Manoeuvre | Refusal, facts: dict[str, FactValue]) -> Effect | Refusal:
+    return Effect(facts, manoeuvre) if isinstance(manoeuvre, Manoeuvre) else manoeuvre
+
+
+EFFECTS: dict[str, EffectHandler] = {
+    "answer": _answer,
+    "set_destination": _set_destination,
+    "start": _start,
+    "stop": _stop,
+    "emergency_stop": _emergency_stop,
+    "set_parameter": _set_parameter,
+    "turn": _turn,
+    "change_lane": _change_lane,
+    "override_traffic_light": _override_traffic_light,
+    "reject": _reject,
+    "ask": _ask,
+}
+
+
+def _manoeuvre_done(_: VehicleInterface, manoeuvre: Manoeuvre | None) -> bool:
+    return manoeuvre is not None and manoeuvre.state is ManoeuvreState.DONE
+
+
+CONDITIONS: dict[str, Condition] = {
+    "autonomous": lambda vehicle, _: vehicle.state().mode is OperationMode.AUTONOMOUS,
+    "standstill": lambda vehicle, _: vehicle.state().mode is OperationMode.PARKED,
+    "junction_passed": _manoeuvre_done,
+    "lane_changed": _manoeuvre_done,
+}
