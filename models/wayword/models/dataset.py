@@ -6,6 +6,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from wayword.compiler import VehicleStatus
+from wayword.models.validation import explain
 
 
 class DatasetError(Exception):
@@ -52,6 +53,4 @@ def read_records(path: Path) -> Iterator[Record]:
         try:
             yield Record.model_validate_json(line)
         except ValidationError as error:
-            first = error.errors()[0]
-            where = ".".join(str(part) for part in first["loc"]) or "record"
-            raise DatasetError(f"{path}:{number}: {where}: {first['msg']}") from error
+            raise DatasetError(f"{path}:{number}: {explain(error)}") from error

@@ -6,7 +6,7 @@ import click
 
 from wayword.cli.common import FAILED, friendly_errors, json_option, map_option, print_json, read_source
 from wayword.compiler import Compilation, compile_program, format_command, render_all
-from wayword.runtime.maps import MapError, load_map
+from wayword.runtime.world import MapError, load_map
 
 
 @click.command(name="compile", short_help="Compile a program to executor instructions.")

@@ -14,10 +14,10 @@ from wayword.cli.common import FAILED, errors, fail, friendly_errors, json_optio
 from wayword.cli.trace import Trace, summary
 from wayword.models import ModelNotFoundError, Translator, model_path
 from wayword.runtime.drive import RunResult
-from wayword.runtime.maps import MapError, load_map
 from wayword.runtime.plots import plot_map, plot_velocity
 from wayword.runtime.scenario import Scenario, ScenarioError, load_scenario, with_instructions
 from wayword.runtime.sweep import run_gold, sweep_gold, sweep_translated
+from wayword.runtime.world import MapError, load_map
 
 
 @click.command(short_help="Drive a scenario: from sentences to a moving car.")

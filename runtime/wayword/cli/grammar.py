@@ -4,7 +4,7 @@ import click
 
 from wayword.cli.common import fail, friendly_errors, map_option
 from wayword.grammar import GrammarError, constraint, wayword_lark
-from wayword.runtime.maps import MapError, load_map
+from wayword.runtime.world import MapError, load_map
 
 
 @click.command(short_help="Print the grammar, as a constraint specialised to a map.")

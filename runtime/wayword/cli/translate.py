@@ -18,7 +18,8 @@ from wayword.cli.common import (
 )
 from wayword.compiler import VehicleStatus, compile_program, render_all
 from wayword.models import InstructionTooLongError, ModelNotFoundError, Translator, model_path
-from wayword.runtime.maps import MapError, load_map
+from wayword.models.validation import explain
+from wayword.runtime.world import MapError, load_map
 
 
 @click.command(short_help="Translate a passenger's words into a program.")
@@ -93,9 +94,7 @@ def _status(status_json: str | None, as_json: bool) -> VehicleStatus:
     try:
         return VehicleStatus.model_validate_json(status_json)
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"])
-        fail(f"--status{' ' + where if where else ''}: {first['msg']}", as_json=as_json)
+        fail(f"--status: {explain(error)}", as_json=as_json)
 
 
 def _load(model: str | None, places: tuple[str, ...]) -> tuple[Translator, float]:

@@ -128,7 +128,8 @@ def _surroundings(state: VehicleState, _: Settings) -> Facts:
 
 
 def _reason(state: VehicleState, _: Settings) -> Facts:
-    return {"constraint": state.binding.constraint, **state.binding.facts}
+    rounded = {name: round(fact) if isinstance(fact, float) else fact for name, fact in state.binding.facts.items()}
+    return {"constraint": state.binding.constraint, **rounded}
 
 
 def _spoken_vehicle(vehicle: SeenVehicle) -> str:

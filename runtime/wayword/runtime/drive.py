@@ -138,6 +138,7 @@ class Drive:
         )
         self._result = RunResult(scenario.name, seed, log)
         self._answered_s = 0.0
+        self._misread_since_s: float | None = None
         self._speeds: list[tuple[float, float]] = []  # time [s], speed [m/s]
 
     def run(self) -> RunResult:
@@ -221,7 +222,7 @@ class Drive:
     def _due(self, trigger: Trigger) -> bool:
         if self._world.time_s - self._answered_s < trigger.after_s:
             return False
-        if trigger.misread_as_red is not None and not self._misread_as_red(trigger.misread_as_red):
+        if not self._misreads_for(trigger):
             return False
         if trigger.next_manoeuvre is None:
             return True
@@ -233,15 +234,23 @@ class Drive:
             and trigger.beyond_m <= distance <= trigger.within_m
         )
 
-    def _misread_as_red(self, remaining_s: float) -> bool:
+    def _misreads_for(self, trigger: Trigger) -> bool:
+        if trigger.misread_as_red_s is None:
+            return True
+        since, light = self._misread_since_s, self._world.true_light_ahead()
+        if since is None or light is None:
+            return False
+        return self._world.time_s - since >= trigger.misread_as_red_s and light.remaining_s >= trigger.green_for_s
+
+    def _watch_misreading(self) -> None:
+        """Notes since when the vehicle has stood before a true green that it takes for red."""
         light = self._world.true_light_ahead()
         standing = self._world.vehicle.state().speed_mps < STANDSTILL_MPS
-        return (
-            standing
-            and light is not None
-            and (light.true_state, light.perceived_state) == ("green", "red")
-            and light.remaining_s >= remaining_s
-        )
+        misread = light is not None and (light.true_state, light.perceived_state) == ("green", "red")
+        if not (standing and misread):
+            self._misread_since_s = None
+        elif self._misread_since_s is None:
+            self._misread_since_s = self._world.time_s
 
     def _drive_on(self, duration_s: float) -> None:
         until = self._world.time_s + duration_s
@@ -257,6 +266,7 @@ class Drive:
             return False
         self._world.step()
         self._copilot.step()
+        self._watch_misreading()
         self._record_state()
         self._tell(waiting_for)
         return True

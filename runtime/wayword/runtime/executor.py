@@ -91,7 +91,8 @@ class Executor:
                 self._start(run, run.commands[len(run.reports)])
 
     def _start(self, run: ProgramRun, lowered: LoweredCommand) -> None:
-        run._started_s, run._facts, run._manoeuvre = self._now(), {}, None
+        run._started_s, run._manoeuvre = self._now(), None
+        run._facts = {argument.name: str(argument.value) for argument in lowered.command.arguments}
         refusal = validate(self.vehicle, lowered)
         if refusal is not None:
             self._end(run, Outcome.REFUSED, refusal)

@@ -1,16 +1,20 @@
 """Plots of a recorded drive, made from its event log."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from wayword.runtime.recording import Event, read_log
 from wayword.runtime.world import Map, load_map
 
 _INK, _ROUTE, _LIMIT, _MARK = "#24292f", "#0969da", "#bc4c00", "#8250df"
 _ROAD, _LANE_LINE = "#d0d7de", "#ffffff"
+_HALO = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
 
 
 def plot_velocity(log: Path, target: Path) -> None:
@@ -33,9 +37,9 @@ def plot_velocity(log: Path, target: Path) -> None:
     _shade_lights(axes, states)
     _mark_instructions(axes, events)
     axes.set(xlabel="time [s]", ylabel="velocity [km/h]", xlim=(0, max(times, default=1)), ylim=(0, None))
-    axes.set_ylim(0, axes.get_ylim()[1] * 1.25)  # room for the labels of the instructions
+    axes.set_ylim(0, axes.get_ylim()[1] * 1.4)  # room for the labels of the instructions
     axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(loc="upper right", frameon=False, ncols=3)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False, ncols=3, fontsize=9)
     axes.set_title(_title(events), loc="left", color=_INK, fontsize=11)
     _save(figure, target)
 
@@ -57,37 +61,56 @@ def plot_map(log: Path, target: Path) -> None:
     _draw_map(axes, load_map(session["map"]))
     states = [event for event in events if event["event"] == "state"]
     axes.plot([s["x"] for s in states], [s["y"] for s in states], color=_ROUTE, lw=2.2, zorder=3)
-    for event in events:
-        if event["event"] == "instruction":
-            at = min(states, key=lambda state: abs(state["t"] - event["t"]))
-            axes.annotate(
-                event["id"],
-                (at["x"], at["y"]),
-                xytext=(6, 8),
-                textcoords="offset points",
-                color=_MARK,
-                fontsize=9,
-                fontweight="bold",
-                zorder=5,
-            )
-            axes.plot(at["x"], at["y"], "o", color=_MARK, ms=5, zorder=4)
+    _mark_places_of_instructions(axes, events, states)
     axes.set_title(_title(events), loc="left", color=_INK, fontsize=11)
     _save(figure, target)
 
 
+def _mark_places_of_instructions(axes: Axes, events: list[Event], states: list[Event]) -> None:
+    for event in _instructions(events):
+        at = min(states, key=lambda state: abs(state["t"] - event["t"]))
+        axes.plot(at["x"], at["y"], "o", color=_MARK, ms=5, zorder=4, label=f"{event['id']}  {event['text']}")
+        axes.annotate(
+            event["id"],
+            (at["x"], at["y"]),
+            xytext=(0, 9),
+            textcoords="offset points",
+            ha="center",
+            color=_MARK,
+            fontsize=9,
+            fontweight="bold",
+            bbox=_HALO,
+            zorder=5,
+        )
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3, frameon=False, fontsize=8, markerscale=0)
+
+
+def _instructions(events: list[Event]) -> list[Event]:
+    return [event for event in events if event["event"] == "instruction"]
+
+
 def _draw_map(axes: Axes, map_: Map) -> None:
     outline = map_.outline()
-    axes.add_collection(LineCollection(outline.lanes, colors=_ROAD, linewidths=5, capstyle="round", zorder=1))
-    axes.add_collection(LineCollection(outline.lanes, colors=_LANE_LINE, linewidths=0.4, zorder=2))
-    axes.add_collection(LineCollection(outline.stop_lines, colors=_INK, linewidths=1.2, zorder=2))
+    paved = [_band(line, outline.lane_width_m / 2) for line in (*outline.lanes, *outline.connectors)]
+    axes.add_collection(PolyCollection(paved, facecolors=_ROAD, edgecolors=_ROAD, linewidths=0.8, zorder=1))
+    axes.add_collection(LineCollection(outline.edges, colors=_LANE_LINE, linewidths=0.7, zorder=2))
+    axes.add_collection(LineCollection(outline.stop_lines, colors=_INK, linewidths=1.4, zorder=2))
     for name, (x, y) in outline.places.items():
         axes.plot(x, y, "s", color=_INK, ms=5, zorder=3)
-        axes.annotate(name, (x, y), xytext=(5, -11), textcoords="offset points", color=_INK, fontsize=8, zorder=5)
+        axes.annotate(name, (x, y), xytext=(6, -12), textcoords="offset points", color=_INK, fontsize=8, zorder=5)
     axes.set_aspect("equal")
     axes.autoscale_view()
-    axes.margins(0.04)
+    axes.margins(0.03)
     axes.invert_yaxis()  # the map's y axis points south
     axes.set_axis_off()
+
+
+def _band(line: Sequence[tuple[float, float]], half_width: float) -> NDArray[np.float64]:
+    """The area within half a width of a line, as a polygon of shape (2 n, 2)."""
+    points = np.asarray(line, dtype=np.float64)
+    along = np.gradient(points, axis=0)
+    normal = np.column_stack((-along[:, 1], along[:, 0])) / np.linalg.norm(along, axis=1, keepdims=True)
+    return np.concatenate((points + half_width * normal, (points - half_width * normal)[::-1]))
 
 
 def _shade_lights(axes: Axes, states: list[Event]) -> None:
@@ -106,20 +129,23 @@ def _shade_lights(axes: Axes, states: list[Event]) -> None:
 
 
 def _mark_instructions(axes: Axes, events: list[Event]) -> None:
-    for event in events:
-        if event["event"] == "instruction":
-            axes.axvline(event["t"], color=_MARK, lw=1, ls=":")
-            axes.annotate(
-                f"{event['id']} {event['text']}",
-                (event["t"], 1.0),
-                xycoords=("data", "axes fraction"),
-                xytext=(3, -3),
-                textcoords="offset points",
-                rotation=90,
-                va="top",
-                fontsize=7.5,
-                color=_MARK,
-            )
+    """Marks when each instruction was given; neighbours' labels stand on different heights."""
+    middle = max(event["t"] for event in events) / 2
+    for number, event in enumerate(_instructions(events)):
+        side = "left" if event["t"] < middle else "right"
+        axes.axvline(event["t"], color=_MARK, lw=1, ls=":")
+        axes.annotate(
+            f"{event['id']} {event['text']}",
+            (event["t"], 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(4 if side == "left" else -4, -12 - 13 * (number % 4)),
+            textcoords="offset points",
+            fontsize=8,
+            color=_MARK,
+            ha=side,
+            bbox=_HALO,
+            zorder=6,
+        )
 
 
 def _title(events: list[Event]) -> str:

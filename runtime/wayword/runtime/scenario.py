@@ -9,6 +9,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from wayword.compiler import compile_program, render_all
+from wayword.models.validation import explain
 from wayword.runtime.outcome import Outcome
 
 
@@ -39,15 +40,17 @@ class Trigger(_Model):
 
     Attributes:
         after_s: So many simulated seconds after the passenger's last instruction was answered (or the start).
-        misread_as_red: The vehicle waits before a light that it sees red and that truly is green, for at least this
-            many seconds more.
+        misread_as_red_s: The vehicle has waited for so long before a light that it takes for red and that truly is
+            green ...
+        green_for_s: ... and that will truly stay green for at least so long.
         next_manoeuvre: The route's next manoeuvre is this one ...
         within_m: ... and it is due within this distance ...
         beyond_m: ... but not nearer than this.
     """
 
     after_s: float = Field(default=0.0, ge=0)
-    misread_as_red: float | None = Field(default=None, gt=0)
+    misread_as_red_s: float | None = Field(default=None, gt=0)
+    green_for_s: float = Field(default=0.0, ge=0)
     next_manoeuvre: Literal["left", "right", "straight", "arrive"] | None = None
     within_m: float = Field(default=1000.0, gt=0)
     beyond_m: float = Field(default=0.0, ge=0)
@@ -176,6 +179,4 @@ def load_scenario(name: str) -> Scenario:
     except yaml.YAMLError as error:
         raise ScenarioError(f"{name}: {error}") from error
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"]) or "scenario"
-        raise ScenarioError(f"{name}: {where}: {first['msg']}") from error
+        raise ScenarioError(f"{name}: {explain(error)}") from error
