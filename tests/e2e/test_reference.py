@@ -59,6 +59,7 @@ def test_what_the_car_did_is_what_was_said(results: dict[int, RunResult], seed: 
     assert straight_on[-1]["road"] == "Main Street"
     assert max(state["speed"] for state in between(said["t4"] + 6, said["t5"])) <= 31 / 3.6
     assert log[-1]["speed"] == 0
+    assert log[-1]["lane"] is not None, "the car stands in a lane, not in a junction"
 
 
 def test_the_log_holds_every_stage_of_every_instruction(results: dict[int, RunResult]) -> None:

@@ -2,20 +2,20 @@
 
 import click
 
-from wayword.cli.common import LazyGroup
+from wayword.cli.common import LazyCommand, LazyGroup
 
 _COMMANDS = {
-    "drive": "wayword.cli.drive:drive",
-    "translate": "wayword.cli.translate:translate",
-    "compile": "wayword.cli.compile:compile_",
-    "grammar": "wayword.cli.grammar:grammar",
-    "explain": "wayword.cli.explain:explain",
+    "drive": LazyCommand("wayword.cli.drive", "drive", "Drive a scenario: from sentences to a moving car."),
+    "translate": LazyCommand("wayword.cli.translate", "translate", "Translate a passenger's words into a program."),
+    "compile": LazyCommand("wayword.cli.compile", "compile_", "Compile a program to executor instructions."),
+    "grammar": LazyCommand("wayword.cli.grammar", "grammar", "Print the grammar, as a constraint for a model."),
+    "explain": LazyCommand("wayword.cli.explain", "explain", "Explain a diagnostic code."),
 }
 
 
 @click.group(
     cls=LazyGroup,
-    commands_at=_COMMANDS,
+    lazy=_COMMANDS,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="Start with: wayword drive --scenario reference",
 )

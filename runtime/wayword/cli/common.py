@@ -6,10 +6,11 @@ from collections.abc import Callable
 from functools import wraps
 from importlib import import_module
 from pathlib import Path
-from typing import Any, NoReturn, ParamSpec, TypeVar
+from typing import Any, NamedTuple, NoReturn, ParamSpec, TypeVar
 
 import click
 from rich.console import Console
+from rich.markup import escape
 
 FAILED, BAD_INPUT = 1, 2
 
@@ -19,25 +20,44 @@ R = TypeVar("R")
 errors = Console(stderr=True, highlight=False)
 
 
+class LazyCommand(NamedTuple):
+    """A command that isn't imported yet.
+
+    Attributes:
+        module: Where it is defined.
+        name: Its name there.
+        summary: What the list of commands says about it.
+    """
+
+    module: str
+    name: str
+    summary: str
+
+
 class LazyGroup(click.Group):
     """A group that imports a command only when it is used, so that ``wayword grammar`` need not load a simulator."""
 
-    def __init__(self, *args: Any, commands_at: dict[str, str] | None = None, **kwargs: Any) -> None:
+    def __init__(self, *args: Any, lazy: dict[str, LazyCommand], **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self._commands_at = commands_at or {}
+        self._lazy = lazy
 
-    def list_commands(self, ctx: click.Context) -> list[str]:
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
         """Names of the commands, in the order of their declaration."""
-        return [*self._commands_at, *super().list_commands(ctx)]
+        return list(self._lazy)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
         """Imports a command."""
-        if cmd_name not in self._commands_at:
-            return super().get_command(ctx, cmd_name)
-        module, name = self._commands_at[cmd_name].split(":")
-        command = getattr(import_module(module), name)
+        lazy = self._lazy.get(cmd_name)
+        if lazy is None:
+            return None
+        command = getattr(import_module(lazy.module), lazy.name)
         assert isinstance(command, click.Command)
         return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        """Lists the commands without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, lazy.summary) for name, lazy in self._lazy.items()])
 
 
 def json_option(command: Callable[P, R]) -> Callable[P, R]:
@@ -85,7 +105,7 @@ def fail(message: str, *, as_json: bool) -> NoReturn:
     """Ends with exit status 2 and a message."""
     if as_json:
         print_json({"error": message})
-    errors.print(f"[bold red]error:[/] {_escape(message)}", soft_wrap=True)
+    errors.print(f"[bold red]error:[/] {escape(message)}", soft_wrap=True)
     sys.exit(BAD_INPUT)
 
 
@@ -104,9 +124,3 @@ def read_source(source: str, *, as_json: bool) -> str:
         fail(f"{source}: {error.strerror}", as_json=as_json)
     except UnicodeDecodeError:
         fail(f"{source}: is not UTF-8 text", as_json=as_json)
-
-
-def _escape(text: str) -> str:
-    from rich.markup import escape
-
-    return escape(text)

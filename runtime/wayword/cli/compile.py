@@ -9,7 +9,7 @@ from wayword.compiler import Compilation, compile_program, format_command, rende
 from wayword.runtime.world import MapError, load_map
 
 
-@click.command(name="compile", short_help="Compile a program to executor instructions.")
+@click.command(name="compile")
 @click.argument("source", metavar="FILE|-")
 @map_option
 @json_option

@@ -20,7 +20,7 @@ from wayword.runtime.sweep import run_gold, sweep_gold, sweep_translated
 from wayword.runtime.world import MapError, load_map
 
 
-@click.command(short_help="Drive a scenario: from sentences to a moving car.")
+@click.command()
 @click.option("--scenario", "name", default="reference", show_default=True, help="A scenario's name or YAML file.")
 @click.option(
     "--text",

@@ -6,7 +6,7 @@ from wayword.cli.common import fail
 from wayword.compiler import CODES
 
 
-@click.command(short_help="Explain a diagnostic code.")
+@click.command()
 @click.argument("code", required=False)
 def explain(code: str | None) -> None:
     """Explain a diagnostic code such as WW0303, or list all codes.

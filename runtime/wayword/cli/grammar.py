@@ -7,7 +7,7 @@ from wayword.grammar import GrammarError, constraint, wayword_lark
 from wayword.runtime.world import MapError, load_map
 
 
-@click.command(short_help="Print the grammar, as a constraint specialised to a map.")
+@click.command()
 @click.option(
     "--format",
     "format_",

@@ -22,7 +22,7 @@ from wayword.models.validation import explain
 from wayword.runtime.world import MapError, load_map
 
 
-@click.command(short_help="Translate a passenger's words into a program.")
+@click.command()
 @click.argument("text")
 @map_option
 @model_option

@@ -130,9 +130,9 @@ def _shade_lights(axes: Axes, states: list[Event]) -> None:
 
 def _mark_instructions(axes: Axes, events: list[Event]) -> None:
     """Marks when each instruction was given; neighbours' labels stand on different heights."""
-    middle = max(event["t"] for event in events) / 2
+    late = 0.7 * max(event["t"] for event in events)
     for number, event in enumerate(_instructions(events)):
-        side = "left" if event["t"] < middle else "right"
+        side = "left" if event["t"] < late else "right"
         axes.axvline(event["t"], color=_MARK, lw=1, ls=":")
         axes.annotate(
             f"{event['id']} {event['text']}",

@@ -107,10 +107,11 @@ def test_without_a_light_there_is_nothing_to_override() -> None:
 
 def test_the_passenger_cannot_send_the_car_into_crossing_traffic() -> None:
     """A car waits at a true red, is told "green", and another one comes with a true green from the side."""
-    world = World(vehicles=0, start="Home", destination="Hospital", faults=[MISREAD])
+    faults = [Fault("misread_light", "B2", "red")]
+    world = World(vehicles=0, start=Placement("B1", "B2", 60), destination="Hospital", faults=faults)
     env, vehicle = world.environment, world.vehicle
     vehicle.start()
-    crossing = env.scene.network.links["A1>B1"].lanes[0]
+    crossing = env.scene.network.links["A2>B2"].lanes[0]
 
     def about_to_cross() -> bool:
         light = env.scene.signals
@@ -131,7 +132,7 @@ def test_the_passenger_cannot_send_the_car_into_crossing_traffic() -> None:
     assert crossing_traffic_near(vehicle, line)
     assert not drive(world, 2.0, lambda: vehicle.connector_entered() is not None)
     assert vehicle.state().binding.constraint == "junction_occupied"
-    assert drive(world, 25, lambda: vehicle.state().road == "West Gate")
+    assert drive(world, 25, lambda: vehicle.state().road == "Church Square")
     assert world.monitor.collisions == 0
 
 

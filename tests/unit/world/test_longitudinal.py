@@ -8,7 +8,7 @@ from wayword.runtime.world import longitudinal as law
 def test_the_free_term_is_zero_at_the_wanted_speed_and_bounded_above_it() -> None:
     assert law.free_acceleration(0.0, 13.9, 1.5, 2.0) == 1.5
     assert law.free_acceleration(13.9, 13.9, 1.5, 2.0) == pytest.approx(0.0)
-    assert -2.0 < law.free_acceleration(36.0, 1.4, 1.5, 2.0) < -1.9
+    assert -2.0 <= law.free_acceleration(36.0, 1.4, 1.5, 2.0) < -1.9
 
 
 def test_the_wanted_gap_is_the_equilibrium_of_following() -> None:

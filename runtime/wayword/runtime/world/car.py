@@ -32,6 +32,8 @@ MAX_JERK = 3.0
 """Comfortable change of the acceleration, in m/s³."""
 _STANDSTILL_MPS = 0.05
 _TURN_SIGNAL_M = 45.0
+_BRAKING_DELAY_S = 0.7
+"""Time that a comfortable jerk takes to build up the braking, roughly."""
 
 
 class Navigator(Protocol):
@@ -103,6 +105,11 @@ class Car(Vehicle):  # type: ignore[misc]  # highway-env has no types
         """Where the front bumper is along the path, from the start of the present segment, in m."""
         return self.s + LENGTH_M
 
+    @property
+    def anticipated_speed(self) -> float:
+        """Speed in m/s once the present acceleration has been taken back with a comfortable jerk."""
+        return self.speed + max(0.0, self.acceleration) ** 2 / (2 * MAX_JERK)
+
     def sees(self, approach: Link) -> LightState:
         """What the light at the end of a link shows to this driver."""
         return self.scene.signals.state(approach, self.scene.time_s)
@@ -149,7 +156,7 @@ class Car(Vehicle):  # type: ignore[misc]  # highway-env has no types
     def can_take(self, connector: LaneSegment) -> bool:
         """Whether braking comfortably makes the car slow enough for a connector of this lane."""
         target = curve_speed(connector, self.parameters.max_lat_accel)
-        distance = self.segment.length - self.s
+        distance = self.segment.length - self.s - _BRAKING_DELAY_S * self.speed
         return required_deceleration(self.speed, target, distance) <= self.parameters.max_decel
 
     def act(self, action: object = None) -> None:  # noqa: ARG002 - highway-env's signature
@@ -213,7 +220,8 @@ class Car(Vehicle):  # type: ignore[misc]  # highway-env has no types
 
     def on_state_update(self) -> None:
         """Follow the rear axle along the path; highway-env's search over all lanes is far too slow."""
-        self.heading, self.speed = float(self.heading), float(self.speed)
+        self.heading = float(self.heading)
+        self.speed = float(self.speed) if abs(self.speed) > 1e-9 else 0.0  # what rounding leaves of a stop
         x, y = self._rear_axle()
         self.s, self.offset = self.segment.curve.project(x, y)
         while self.s > self.segment.length and len(self.path) > 1:

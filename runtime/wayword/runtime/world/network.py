@@ -8,10 +8,13 @@ from wayword.runtime.vehicle import TurnDirection
 from wayword.runtime.world.geometry import Curve, Point
 
 LaneIndex = tuple[str, str, int]
-"""How highway-env names a lane: node, node, number."""
+"""How highway-env names a lane: node, node, number.
+
+The classes below refer to each other in circles, so that each names itself by its identifier alone.
+"""
 
 
-@dataclass(eq=False, slots=True)
+@dataclass(eq=False, repr=False, slots=True)
 class Junction:
     """Where links meet.
 
@@ -31,13 +34,16 @@ class Junction:
     incoming: list["Link"] = field(default_factory=list)
     connectors: list["LaneSegment"] = field(default_factory=list)
 
+    def __repr__(self) -> str:
+        return f"<Junction {self.id}>"
+
     @property
     def signalised(self) -> bool:
         """Whether it has traffic lights: every junction of three or more arms has."""
         return len(self.incoming) > 2
 
 
-@dataclass(eq=False, slots=True)
+@dataclass(eq=False, repr=False, slots=True)
 class Link:
     """One direction of a road between two junctions.
 
@@ -61,6 +67,9 @@ class Link:
     lanes: list["LaneSegment"] = field(default_factory=list)
     movements: dict[TurnDirection, "Link"] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        return f"<Link {self.id}>"
+
     @property
     def length(self) -> float:
         """Length between the two junctions' edges, in m."""
@@ -71,7 +80,7 @@ class Link:
         return next(direction for direction, link in self.movements.items() if link is onward)
 
 
-@dataclass(eq=False, slots=True)
+@dataclass(eq=False, repr=False, slots=True)
 class LaneSegment:
     """One lane of a link, or one connector across a junction.
 
@@ -109,6 +118,9 @@ class LaneSegment:
     conflicts: "tuple[LaneSegment, ...]" = ()
     siblings: "tuple[tuple[LaneSegment, float], ...]" = ()
 
+    def __repr__(self) -> str:
+        return f"<LaneSegment {self.index}>"
+
     @property
     def junction(self) -> Junction:
         """The junction at its end, or the one that a connector crosses."""
@@ -144,7 +156,7 @@ class Place:
         return self.link.lanes[-1].curve.point(self.s)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Network:
     """A map's lane graph.
 

@@ -111,13 +111,13 @@ def _cruise(car: "Car") -> Demand:
 
 def _preview(car: "Car") -> list[Demand]:
     """Lower limits and curves ahead."""
-    p, demands = car.parameters, []
+    p, speed, demands = car.parameters, car.anticipated_speed, []
     start = -car.s
     for segment in car.path:
         if segment.kind == "connector" and segment.curve.curvature != 0.0:
             target = curve_speed(segment, p.max_lat_accel)
             distance = start - _CURVE_PREVIEW_M
-            acceleration = approach_acceleration(car.speed, target, distance, p.max_decel)
+            acceleration = approach_acceleration(speed, target, distance, p.max_decel)
             facts: dict[str, FactValue] = {
                 "curve_kmh": kmh(target),
                 "junction": segment.junction.name,
@@ -125,7 +125,7 @@ def _preview(car: "Car") -> list[Demand]:
             }
             demands.append(Demand(acceleration, "curve", facts))
         elif start > LENGTH_M and segment.limit_mps < car.segment.limit_mps:
-            acceleration = approach_acceleration(car.speed, segment.limit_mps, start - LENGTH_M, p.max_decel)
+            acceleration = approach_acceleration(speed, segment.limit_mps, start - LENGTH_M, p.max_decel)
             demands.append(Demand(acceleration, "speed_limit", {"limit_kmh": kmh(segment.limit_mps)}))
         start += segment.length
     return demands

@@ -154,6 +154,12 @@ def crossing_traffic_near(car: "Car", line: StopLine) -> bool:
     return False
 
 
+def _past_line(car: "Car") -> bool:
+    """Whether the front bumper is between the stop line and the junction."""
+    line = car.segment.stop_line
+    return line is not None and car.front > line
+
+
 @dataclass(slots=True)
 class StopRule:
     """The passenger's STOP: brake comfortably in the lane, but not inside a junction.
@@ -169,7 +175,7 @@ class StopRule:
         if not self.braking:
             comfort = car.parameters.max_decel
             distance = car.speed**2 / (2 * comfort) + 0.3 * car.speed
-            inside = car.connector_entered() is not None
+            inside = car.connector_entered() is not None or _past_line(car)
             self.braking = not inside and (line is None or distance <= line.distance)
         if not self.braking:
             return []
