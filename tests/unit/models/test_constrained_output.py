@@ -1,71 +1,45 @@
 """The real model under the real constraint: whatever it says, it parses, and compiles or gets a diagnostic."""
 
-import random
+import os
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import pytest
 
+from tests.unit.models.hot_generation import TOWN, generate, one_command
 from wayword.compiler import compile_program
-from wayword.grammar import constraint, load, parser, specialise, to_gbnf
+from wayword.grammar import constraint, parser
 from wayword.models.backend import Message
 from wayword.models.embedded import EmbeddedModel
 from wayword.models.translator import MAX_INSTRUCTION_CHARACTERS, InstructionTooLongError, Translator
 
 pytestmark = pytest.mark.model
 
-TOWN = (
-    "Campus Building",
-    "Main Station",
-    "City Hall",
-    "Hospital",
-    "Museum",
-    "Stadium",
-    "Supermarket",
-    "Library",
-    "Harbor",
-    "Home",
-)
-# fmt: off
-WORDS = (
-    "please", "go", "stop", "turn", "left", "right", "faster", "slower", "the", "car", "ahead", "light", "green",
-    "red", "museum", "harbour", "fifty", "30 km/h", "mph", "why", "when", "not", "and then", "lane", "überholen",
-    "停车", "🚗", "}{", '"', "'", "---", "command_type:", "action:", "ignore previous instructions", "\x00", "null",
-)
-# fmt: on
 
-
-def random_prompt(generator: random.Random) -> str:
-    return " ".join(generator.choices(WORDS, k=generator.randint(1, 12)))
-
-
-def one_command() -> str:
-    """The constraint for a single command: at this temperature the model would else nearly always add three more."""
-    return to_gbnf(specialise(load("command"), {"PLACE": TOWN}))
-
-
-@pytest.mark.parametrize(
-    ("gbnf", "generations"), [(one_command(), 200), (constraint(TOWN), 10)], ids=["command", "program"]
-)
-def test_hot_random_output_always_parses(embedded_model: EmbeddedModel, gbnf: str, generations: int) -> None:
+@pytest.mark.parametrize(("gbnf", "count"), [(one_command(), 200), (constraint(TOWN), 8)], ids=["command", "program"])
+def test_hot_random_output_always_parses(gbnf: str, count: int) -> None:
     """Temperature 1.5 over the whole distribution: only the constraint holds the model."""
-    generator = random.Random(20261122)
+    processes = os.cpu_count() or 1
+    shares = [range(start, count, processes) for start in range(processes)]
+    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+        answers = [answer for share in pool.map(generate, [gbnf] * processes, shares) for answer in share]
+    assert len(answers) == count
     actions: set[str] = set()
     refused = 0
-    for seed in range(generations):
-        messages = [Message("user", random_prompt(generator))]
-        answer = embedded_model.complete(messages, gbnf=gbnf, temperature=1.5, seed=seed, max_tokens=600)
-        assert answer.finished, f"cut off with seed {seed}: {answer.text}"
+    for answer in answers:
+        assert answer.finished, f"cut off: {answer.text}"
         parser("start").parse(answer.text)
         result = compile_program(answer.text, TOWN)
-        assert result.ok or result.diagnostics
         if result.ok:
             assert result.canonical == answer.text
             actions |= {command.command.action.name for command in result.commands}
         else:
             refused += 1
+            # Bounds are the only thing that the constraint leaves to the compiler.
             assert {diagnostic.code.name for diagnostic in result.diagnostics} == {"WW0303"}, answer.text
     # The test is worth something only if the outputs differ.
-    assert len(actions) >= min(15, generations)
-    assert refused < generations
+    assert len(actions) >= min(15, count / 2)
+    assert refused < count
 
 
 def test_a_place_that_is_not_on_the_map_cannot_be_said(embedded_model: EmbeddedModel) -> None:

@@ -4,7 +4,7 @@ import pytest
 
 from tests.unit.world.helpers import code, drive
 from wayword.runtime.world import Fault, Placement, World
-from wayword.runtime.world.right_of_way import crossing_traffic_near, next_line
+from wayword.runtime.world.right_of_way import crossing_traffic_near, junction_demands, next_line
 from wayword.runtime.world.traffic import TrafficCar
 
 MISREAD = Fault("misread_light", "B1", "red")
@@ -163,3 +163,21 @@ def test_at_yellow_it_stops_only_where_that_is_comfortable(yellow_distance: floa
     else:
         assert drive(world, 20.0, lambda: _waits_at_light(world))
     assert world.monitor.red_lights_run == 0
+
+
+def test_a_car_between_the_stop_line_and_the_junction_keeps_others_out() -> None:
+    """Once the override has sent the car over its line, a true green from the side has to wait for it."""
+    faults = [Fault("misread_light", "B2", "green")]
+    world = World(vehicles=0, start=Placement("B1", "B2", 150), destination="Hospital", faults=faults)
+    env, vehicle = world.environment, world.vehicle
+    crossing = env.scene.network.links["A2>B2"].lanes[0]
+    other = TrafficCar(env.road, env.scene, crossing, crossing.length - 8.0, 0.0, env.np_random, 1)
+    other.path = [crossing, crossing.connectors["straight"]]
+    line = next_line(vehicle)
+    assert line is not None
+    vehicle.s = 0.5 + (vehicle.segment.stop_line or 0.0) - 5.0
+    assert vehicle.connector_entered() is line.connector
+    env.scene.occupancy.rebuild([vehicle, other])
+    other_line = next_line(other)
+    assert other_line is not None
+    assert [demand.constraint for demand in junction_demands(other, other_line)] == ["junction_occupied"]

@@ -147,3 +147,19 @@ def test_a_lane_change_goes_exactly_one_lane_after_blinking() -> None:
     assert drive(world, 6, lambda: change.state is ManoeuvreState.DONE)
     assert vehicle.state().lane == other
     assert abs(vehicle.offset) < 0.3
+
+
+def test_stop_during_a_lane_change_ends_in_a_lane() -> None:
+    world = World(vehicles=0, start=Placement("B1", "B2", 40), destination="Hospital")
+    vehicle = world.vehicle
+    vehicle.set_parameter("max_vel", 20 / 3.6)
+    vehicle.start()
+    drive(world, 2)
+    change = manoeuvre(vehicle.request_lane_change("left"))
+    assert drive(world, 20, lambda: vehicle.shift is not None and vehicle.shift.progress > 0.3)
+    vehicle.stop()
+    assert drive(world, 20, lambda: vehicle.mode is OperationMode.PARKED)
+    world.step()
+    assert change.state is ManoeuvreState.DONE
+    assert vehicle.state().lane == 1
+    assert abs(vehicle.offset) < 0.3

@@ -123,12 +123,13 @@ class Car(Vehicle):  # type: ignore[misc]  # highway-env has no types
         return None
 
     def connector_entered(self) -> LaneSegment | None:
-        """The connector that some part of the car is on."""
+        """The connector that some part of the car is on; it counts as entered from the stop line on.
+
+        So two cars that pass their lines one right after the other see each other in time.
+        """
         if self.segment.kind == "connector":
             return self.segment
-        if self.front > self.segment.length and len(self.path) > 1:
-            return self.path[1]
-        return None
+        return self.path[1] if len(self.path) > 1 and self.front > self._last_point else None
 
     def replan(self) -> None:
         """Plan the path anew from the present segment, keeping the next connector where it is too late for another."""
@@ -147,11 +148,16 @@ class Car(Vehicle):  # type: ignore[misc]  # highway-env has no types
         self.path = path
 
     def _committed_to(self, connector: LaneSegment) -> bool:
-        line = self.segment.stop_line
-        if self.front > (line if line is not None else self.segment.length):
+        if self.front > self._last_point:
             return True
         other = self.navigator.onward(self, self.segment)
         return other is not None and other is not connector and not self.can_take(other)
+
+    @property
+    def _last_point(self) -> float:
+        """Where the present lane is left: at its stop line, or where there is none at its end."""
+        line = self.segment.stop_line
+        return line if line is not None else self.segment.length
 
     def can_take(self, connector: LaneSegment) -> bool:
         """Whether braking comfortably makes the car slow enough for a connector of this lane."""
@@ -194,7 +200,7 @@ class Car(Vehicle):  # type: ignore[misc]  # highway-env has no types
 
     def _blink(self) -> None:
         if self.lane_change is not None:
-            self.indicator = self.lane_change.indicator
+            self.indicator = self.lane_change.side
             return
         connector = self.segment if self.segment.kind == "connector" else None
         if connector is None and len(self.path) > 1 and self.segment.length - self.front < _TURN_SIGNAL_M:

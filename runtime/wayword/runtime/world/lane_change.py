@@ -43,26 +43,19 @@ class LaneChange:
         side: Where it goes.
         purpose: The passenger's ``request``, the ``route``, or to ``pass`` a parked car.
         manoeuvre: What the executor watches.
+        moving: Whether the lateral motion has begun.
     """
 
     def __init__(self, car: "Car", side: Side, purpose: Purpose) -> None:
         self.side: Side = side
         self.purpose = purpose
         self.manoeuvre = Manoeuvre("lane_change", facts={"side": side})
+        self.moving = False
         self._since_s = car.scene.time_s
-
-    @property
-    def indicator(self) -> Side:
-        """The indicator to blink."""
-        return self.side
-
-    def moving(self, car: "Car") -> bool:
-        """Whether the lateral motion has begun."""
-        return car.shift is not None
 
     def step(self, car: "Car") -> None:
         """Take the next step of the lane change."""
-        if self.manoeuvre.facts.get("moving"):
+        if self.moving:
             if car.shift is None:
                 self._end(car, ManoeuvreState.DONE)
             return
@@ -73,12 +66,12 @@ class LaneChange:
         elif self.purpose == "request" and waited > PATIENCE_S:
             self._end(car, ManoeuvreState.FAILED, "no_gap")
         elif waited >= INDICATE_S and self._may_start(car, target):
-            self.manoeuvre.facts["moving"] = 1
+            self.moving = True
             car.shift_to(target, self.side)
 
     def call_off(self, car: "Car", code: str) -> None:
         """Give it up, unless the car is moving over already."""
-        if not self.moving(car):
+        if not self.moving:
             self._end(car, ManoeuvreState.FAILED, code)
 
     def _end(self, car: "Car", state: ManoeuvreState, code: str | None = None) -> None:
@@ -111,8 +104,7 @@ def _can_move_over(car: "Car") -> bool:
 def gap_is_safe(car: "Car", target: LaneSegment) -> bool:
     """UN R79's gap to the car behind in the target lane, RSS's to the car ahead."""
     occupancy = car.scene.occupancy
-    path = [target, *(connector for connector in list(target.connectors.values())[:1])]
-    ahead = occupancy.leader(car, path, car.s, _LOOK_BACK_M)
+    ahead = occupancy.leader(car, [target], car.s, _LOOK_BACK_M)
     if ahead is not None:
         settled = car.parameters.min_gap + _CUT_IN_SHARE * car.parameters.time_gap * car.speed
         needed = max(_LEAST_GAP_M, settled, rss_distance(car.speed, ahead.car.speed))

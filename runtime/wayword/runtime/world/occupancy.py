@@ -61,6 +61,7 @@ class Occupancy:
         return None
 
     def _first_ahead(self, car: "Car", segment: LaneSegment, after: float) -> tuple["Car", float] | None:
+        """The next car on a segment, on one that parts from it, or on one that joins it at its end."""
         best: Car | None = None
         least = float("inf")
         for other in self._cars.get(segment, ()):
@@ -70,6 +71,11 @@ class Occupancy:
             for other in self._cars.get(sibling, ()):
                 if other is not car and after < other.s < min(shared, least):
                     best, least = other, other.s
+        for feeder in segment.exit.feeders if segment.exit is not None else ():
+            for other in self._cars.get(feeder, ()) if feeder is not segment else ():
+                position = segment.length - feeder.length + other.s  # as far from the common exit
+                if other is not car and after < position < least:
+                    best, least = other, position
         return None if best is None else (best, least)
 
     def follower(self, car: "Car", lane: LaneSegment, s: float, reach: float) -> Neighbour | None:

@@ -72,7 +72,7 @@ def lane_change(ego: "EgoCar", side: Side) -> Manoeuvre | Refusal:
     if lane is not ego.segment or room_ahead(ego) < length_needed(ego, INDICATE_S):
         return Refusal("too_close_to_junction", {"side": side, "junction": ego.segment.junction.name})
     if ego.lane_change is not None:
-        if ego.lane_change.moving(ego):
+        if ego.lane_change.moving:
             return Refusal("changing_lane", {"side": ego.lane_change.side})
         ego.lane_change.call_off(ego, "superseded")
     ego.lane_change = LaneChange(ego, side, "request")

@@ -154,15 +154,9 @@ def crossing_traffic_near(car: "Car", line: StopLine) -> bool:
     return False
 
 
-def _past_line(car: "Car") -> bool:
-    """Whether the front bumper is between the stop line and the junction."""
-    line = car.segment.stop_line
-    return line is not None and car.front > line
-
-
 @dataclass(slots=True)
 class StopRule:
-    """The passenger's STOP: brake comfortably in the lane, but not inside a junction.
+    """The passenger's STOP: brake comfortably in the lane, but neither inside a junction nor between two lanes.
 
     Attributes:
         braking: Whether it has begun, after which it isn't put off any more.
@@ -171,12 +165,12 @@ class StopRule:
     braking: bool = False
 
     def demands(self, car: "Car", line: StopLine | None) -> list[Demand]:
-        """Brake, unless that would end in a junction which had better be passed first."""
+        """Brake, unless there is a junction to be passed or a lane change to be finished first."""
         if not self.braking:
             comfort = car.parameters.max_decel
             distance = car.speed**2 / (2 * comfort) + 0.3 * car.speed
-            inside = car.connector_entered() is not None or _past_line(car)
-            self.braking = not inside and (line is None or distance <= line.distance)
+            busy = car.connector_entered() is not None or car.shift is not None
+            self.braking = not busy and (line is None or distance <= line.distance)
         if not self.braking:
             return []
         facts = {"speed_kmh": kmh(car.speed)}
