@@ -54,7 +54,7 @@ def check(
         The well-typed program, or None where there is an error; and the diagnostics.
     """
     checker = _Checker(places)
-    checked = [checker.command(command) for command in commands]
+    checked = [checker.command(command) for command in commands[:MAX_COMMANDS]]
     if len(commands) > MAX_COMMANDS:
         checker.report(
             TOO_MANY_COMMANDS,
@@ -177,6 +177,8 @@ class _Checker:
 
 def suggest(word: str, known: Sequence[str]) -> str:
     """What to write instead of a misspelt word: the nearest known one, or all of them."""
+    if word.strip() in known:
+        return "remove the white space around the word"
     folded = {name.lower(): name for name in known}
     near = get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
     if near:

@@ -93,7 +93,8 @@ UNKNOWN_WORD = _declare("WW0304", "not one of the allowed words", "The parameter
 NOT_A_NUMBER = _declare(
     "WW0305",
     "not a number",
-    "A number is decimal, with at most 4 digits before and 3 after the point, then one space and the unit.",
+    "A number is decimal, with at most 4 digits before the point, no leading zeros, and at most 3 after it; then come "
+    "one space and the unit.",
 )
 WRONG_SIGN = _declare(
     "WW0306",
@@ -111,7 +112,9 @@ UNKNOWN_PLACE = _declare("WW0401", "place not on the map", "The loaded map has n
 MALFORMED_PLACE = _declare(
     "WW0402",
     "malformed place name",
-    "A place name starts with a letter, has at most 40 letters, digits, dots, apostrophes, hyphens and single spaces.",
+    "A place name starts with a letter and has at most 40 letters, digits, dots, apostrophes, hyphens and single "
+    "spaces; it is no word that YAML reads as something else than text (yes, no, on, off, true, false, null), and not "
+    "`default`.",
 )
 
 

@@ -95,4 +95,4 @@ def _hint(rest: str) -> str | None:
         return "indent with two spaces, not with tabs"
     if rest.startswith("#"):
         return "comments are not part of the language"
-    return None
+    return None if rest.strip() else "remove the empty line"

@@ -1,6 +1,6 @@
 """Shows diagnostics to people: the message, the source line, a caret below the place, and help."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from wayword.compiler.diagnostics import Diagnostic
 
@@ -23,13 +23,22 @@ def render(diagnostic: Diagnostic, source: str, name: str = "<program>") -> str:
               |            ^^^^^^^^
               = help: 5 to 130 km/h are allowed
     """
-    span = diagnostic.span
+    return _render(diagnostic, source.split("\n"), name)
+
+
+def render_all(diagnostics: Iterable[Diagnostic], source: str, name: str = "<program>") -> str:
+    """Renders several diagnostics with an empty line between them."""
     lines = source.split("\n")
-    text = lines[span.line - 1] if span.line <= len(lines) else ""
+    return "\n\n".join(_render(diagnostic, lines, name) for diagnostic in diagnostics)
+
+
+def _render(diagnostic: Diagnostic, lines: Sequence[str], name: str) -> str:
+    span = diagnostic.span
+    text = _printable(lines[span.line - 1] if span.line <= len(lines) else "")
     margin = " " * len(str(span.line))
     carets = "^" * max(1, span.end_column - span.column)
     rendered = [
-        f"{diagnostic.severity}[{diagnostic.code.name}]: {diagnostic.message}",
+        f"{diagnostic.severity}[{diagnostic.code.name}]: {_printable(diagnostic.message)}",
         f"{margin}--> {name}:{span.line}:{span.column}",
         f"{margin} |",
         f"{span.line} | {text}",
@@ -40,6 +49,6 @@ def render(diagnostic: Diagnostic, source: str, name: str = "<program>") -> str:
     return "\n".join(rendered)
 
 
-def render_all(diagnostics: Iterable[Diagnostic], source: str, name: str = "<program>") -> str:
-    """Renders several diagnostics with an empty line between them."""
-    return "\n\n".join(render(diagnostic, source, name) for diagnostic in diagnostics)
+def _printable(text: str) -> str:
+    """The text with a blot for every control character, so that the terminal stays whole and the carets fit."""
+    return "".join(character if character.isprintable() else "\N{REPLACEMENT CHARACTER}" for character in text)

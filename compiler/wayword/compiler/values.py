@@ -24,8 +24,16 @@ from wayword.compiler.vocabulary import Choice, DrivingParameter, Quantity, Valu
 DEFAULT = "default"
 STEPS = ("increase", "decrease")
 
-_NUMBER = re.compile(r"(?P<sign>[+-]?)(?P<number>[0-9]{1,4}(?:\.[0-9]{1,3})?)(?: (?P<unit>\S.*))?")
+# No leading zeros: a YAML 1.1 reader takes 0100 for an octal number.
+_NUMBER = re.compile(r"(?P<sign>[+-]?)(?P<number>(?:0|[1-9][0-9]{0,3})(?:\.[0-9]{1,3})?)(?: (?P<unit>\S.*))?")
 _PLACE = re.compile(r"(?=.{1,40}\Z)[A-Za-z][A-Za-z0-9.'-]*(?: [A-Za-z0-9.'-]+)*")
+# What a YAML 1.1 reader doesn't take for a string, and the language's own word.
+_RESERVED = frozenset({"y", "n", "yes", "no", "on", "off", "true", "false", "null", DEFAULT})
+
+
+def is_place_name(text: str) -> bool:
+    """Whether a text can be the name of a place (language.md section 2), on whatever map."""
+    return _PLACE.fullmatch(text) is not None and text.lower() not in _RESERVED
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +84,7 @@ def _read_word(name: str, options: Sequence[str], text: str) -> Value | Problem:
 
 
 def _read_place(text: str, places: Sequence[str] | None) -> Value | Problem:
-    if not _PLACE.fullmatch(text):
+    if not is_place_name(text):
         return Problem(MALFORMED_PLACE, f"`{text}` is no name of a place", MALFORMED_PLACE.explanation)
     if places is None or text in places:
         return Word(text)

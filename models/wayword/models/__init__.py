@@ -1,18 +1,18 @@
 """Language models: weights, decoding under a constraint, prompts, and the translation of instructions."""
 
-from wayword.models.backend import Completion, LanguageModel, Message
+from wayword.models.backend import Completion, InstructionError, LanguageModel, Message
 from wayword.models.dataset import DatasetError, Record, read_records
-from wayword.models.registry import DEFAULT_MODEL, ModelNotFoundError, model_path
-from wayword.models.translator import InstructionTooLongError, Translation, Translator
+from wayword.models.registry import DEFAULT_MODEL, ModelError, model_path
+from wayword.models.translator import Translation, Translator
 
 __all__ = [
     "DEFAULT_MODEL",
     "Completion",
     "DatasetError",
-    "InstructionTooLongError",
+    "InstructionError",
     "LanguageModel",
     "Message",
-    "ModelNotFoundError",
+    "ModelError",
     "Record",
     "Translation",
     "Translator",

@@ -5,6 +5,10 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 
+class InstructionError(ValueError):
+    """An instruction that a model can't read. The message says why."""
+
+
 @dataclass(frozen=True, slots=True)
 class Message:
     """One turn of the conversation that makes up a prompt."""

@@ -44,7 +44,7 @@ def read_records(path: Path) -> Iterator[Record]:
         DatasetError: The file or one of its lines can't be read.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8").split("\n")
     except (OSError, UnicodeDecodeError) as error:
         raise DatasetError(f"{path}: {error}") from error
     for number, line in enumerate(lines, start=1):

@@ -13,7 +13,8 @@ from llama_cpp.llama_grammar import LlamaGrammar
 from llama_cpp.llama_types import ChatCompletionRequestMessage
 
 from wayword.grammar import check_gbnf
-from wayword.models.backend import Completion, Message
+from wayword.models.backend import Completion, InstructionError, Message
+from wayword.models.registry import ModelError
 
 CONTEXT_TOKENS = 4096
 
@@ -27,12 +28,20 @@ class EmbeddedModel:
     Args:
         path: The GGUF file.
         threads: Number of threads; None takes all cores.
+
+    Raises:
+        ModelError: llama.cpp can't load the file.
     """
 
     def __init__(self, path: Path, threads: int | None = None) -> None:
         self.path = path
         threads = threads or os.cpu_count() or 1
-        self._llama = Llama(str(path), n_ctx=CONTEXT_TOKENS, n_threads=threads, n_threads_batch=threads, verbose=False)
+        try:
+            self._llama = Llama(
+                str(path), n_ctx=CONTEXT_TOKENS, n_threads=threads, n_threads_batch=threads, verbose=False
+            )
+        except ValueError as error:
+            raise ModelError(f"{path} can't be loaded, it may be incomplete or of an unknown kind: {error}") from error
         self._open_ended = self._formatter(ends_with_answer=False)
         self._answering = self._formatter(ends_with_answer=True)
 
@@ -59,11 +68,11 @@ class EmbeddedModel:
 
         Raises:
             GrammarError: The grammar is not one that llama.cpp can take; it is checked before llama.cpp sees it.
-            ValueError: The prompt leaves no room for `max_tokens` in the context.
+            InstructionError: The prompt leaves no room for `max_tokens` in the context.
         """
         prompt = self._tokens(messages, self._answering)
         if len(prompt) + max_tokens > CONTEXT_TOKENS:
-            raise ValueError(
+            raise InstructionError(
                 f"the prompt has {len(prompt)} tokens, with {max_tokens} for the answer that is more than the "
                 f"{CONTEXT_TOKENS} of the context; shorten the instruction"
             )
@@ -104,12 +113,23 @@ class EmbeddedModel:
         )
 
     def _tokens(self, messages: Sequence[Message], formatter: Jinja2ChatFormatter) -> list[int]:
+        """The tokens of a conversation.
+
+        Only the template may open and close turns: what somebody said is no template, even if it spells out control
+        tokens. So the template is filled with marks, and the parts are tokenised apart.
+        """
+        marks = [f"\ue000{number}\ue001" for number in range(len(messages))]
         turns = [
-            cast(ChatCompletionRequestMessage, {"role": message.role, "content": message.content})
-            for message in messages
+            cast(ChatCompletionRequestMessage, {"role": message.role, "content": mark})
+            for message, mark in zip(messages, marks, strict=True)
         ]
-        prompt = formatter(messages=turns).prompt
-        return list(self._llama.tokenize(prompt.encode(), add_bos=False, special=True))
+        rest = formatter(messages=turns).prompt
+        tokens: list[int] = []
+        for message, mark in zip(messages, marks, strict=True):
+            before, rest = rest.split(mark, 1)
+            tokens += self._llama.tokenize(before.encode(), add_bos=False, special=True)
+            tokens += self._llama.tokenize(message.content.encode(), add_bos=False, special=False)
+        return tokens + self._llama.tokenize(rest.encode(), add_bos=False, special=True)
 
     def _token_text(self, token: int) -> str:
         return self._llama.detokenize([token], special=True).decode("utf-8", errors="replace") if token >= 0 else ""

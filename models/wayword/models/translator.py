@@ -7,8 +7,9 @@ from time import perf_counter
 
 from wayword.compiler import VehicleStatus
 from wayword.grammar import constraint
-from wayword.models.backend import LanguageModel
+from wayword.models.backend import InstructionError, LanguageModel
 from wayword.models.prompt import constant_messages, prompt_messages
+from wayword.models.validation import is_text
 
 MAX_INSTRUCTION_CHARACTERS = 1000
 
@@ -32,10 +33,6 @@ class Translation:
     forced_tokens: int
     confidence: float
     finished: bool
-
-
-class InstructionTooLongError(ValueError):
-    """The instruction is longer than any passenger's sentence."""
 
 
 class Translator:
@@ -74,10 +71,12 @@ class Translator:
             seed: For temperatures above 0.
 
         Raises:
-            InstructionTooLongError: The instruction has more than 1,000 characters.
+            InstructionError: The instruction has more than 1,000 characters, or isn't text.
         """
+        if not is_text(instruction):
+            raise InstructionError("the instruction isn't UTF-8 text")
         if len(instruction) > MAX_INSTRUCTION_CHARACTERS:
-            raise InstructionTooLongError(
+            raise InstructionError(
                 f"the instruction has {len(instruction)} characters, at most {MAX_INSTRUCTION_CHARACTERS} are read"
             )
         started = perf_counter()

@@ -1,6 +1,15 @@
-"""Says what is wrong with data from a file, in a line."""
+"""Checks of input, and what to say of it in a line."""
 
 from pydantic import ValidationError
+
+
+def is_text(text: str) -> bool:
+    """Whether a text can be written as UTF-8; half a surrogate pair, as of bytes that were no text, can't."""
+    try:
+        text.encode("utf-8")
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def explain(error: ValidationError) -> str:

@@ -1,5 +1,8 @@
 """The command line."""
 
+import sys
+from io import TextIOWrapper
+
 import click
 
 from wayword.cli.common import LazyCommand, LazyGroup
@@ -28,3 +31,6 @@ def main() -> None:
 
     Exit status: 0 done, 1 the work ran and something in it failed, 2 bad usage or input.
     """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal that can't show “ shows ? instead

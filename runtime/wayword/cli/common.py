@@ -2,7 +2,8 @@
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from functools import wraps
 from importlib import import_module
 from pathlib import Path
@@ -13,6 +14,7 @@ from rich.console import Console
 from rich.markup import escape
 
 FAILED, BAD_INPUT = 1, 2
+MAX_SOURCE_BYTES = 64 * 1024
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -40,6 +42,17 @@ class LazyGroup(click.Group):
     def __init__(self, *args: Any, lazy: dict[str, LazyCommand], **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._lazy = lazy
+
+    def main(self, args: Sequence[str] | None = None, *rest: Any, **extra: Any) -> Any:
+        """Runs the command line, with bad usage as a JSON object where ``--json`` asks for one."""
+        words = list(sys.argv[1:] if args is None else args)
+        if "--json" not in words:
+            return super().main(words, *rest, **extra)
+        try:
+            status = super().main(words, *rest, **{**extra, "standalone_mode": False})
+        except click.ClickException as error:
+            fail(error.format_message(), as_json=True)
+        sys.exit(status if isinstance(status, int) else 0)
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
         """Names of the commands, in the order of their declaration."""
@@ -117,10 +130,13 @@ def print_json(value: object) -> None:
 def read_source(source: str, *, as_json: bool) -> str:
     """Reads a program from a file, or from standard input where the name is ``-``."""
     try:
-        if source == "-":
-            return sys.stdin.buffer.read().decode("utf-8")
-        return Path(source).read_text(encoding="utf-8")
+        with nullcontext(sys.stdin.buffer) if source == "-" else Path(source).open("rb") as file:
+            content = file.read(MAX_SOURCE_BYTES + 1)
     except OSError as error:
         fail(f"{source}: {error.strerror}", as_json=as_json)
+    if len(content) > MAX_SOURCE_BYTES:
+        fail(f"{source}: a program has at most 4 commands, this is more than {MAX_SOURCE_BYTES} bytes", as_json=as_json)
+    try:
+        return content.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError:
         fail(f"{source}: is not UTF-8 text", as_json=as_json)

@@ -8,13 +8,15 @@ from pathlib import Path
 
 import click
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from wayword.cli.common import FAILED, errors, fail, friendly_errors, json_option, model_option, print_json
 from wayword.cli.trace import Trace, summary
-from wayword.models import ModelNotFoundError, Translator, model_path
+from wayword.models import ModelError, Translator, model_path
 from wayword.runtime.drive import RunResult
 from wayword.runtime.plots import plot_map, plot_velocity
+from wayword.runtime.recording import LogError
 from wayword.runtime.scenario import Scenario, ScenarioError, load_scenario, with_instructions
 from wayword.runtime.sweep import run_gold, sweep_gold, sweep_translated
 from wayword.runtime.world import MapError, load_map
@@ -44,7 +46,7 @@ from wayword.runtime.world import MapError, load_map
 @click.option("--out", type=click.Path(path_type=Path), default=Path("out"), show_default=True, help="Output folder.")
 @model_option
 @json_option
-@friendly_errors(ScenarioError, MapError, ModelNotFoundError)
+@friendly_errors(ScenarioError, MapError, ModelError, LogError, OSError)
 def drive(
     name: str,
     texts: tuple[str, ...],
@@ -76,6 +78,7 @@ def drive(
     if own:
         scenario = with_instructions(scenario, own)
     seeds = range(seed, seed + runs)
+    out.mkdir(parents=True, exist_ok=True)  # better to fail now than after the drive
     console = Console(quiet=as_json, highlight=False)
     _announce(console, scenario, seeds)
     if programs:
@@ -122,15 +125,16 @@ def to_json(results: Sequence[RunResult]) -> dict[str, object]:
 
 def _announce(console: Console, scenario: Scenario, seeds: range) -> None:
     which = f"seed {seeds[0]}" if len(seeds) == 1 else f"seeds {seeds[0]} to {seeds[-1]}"
-    console.print(f"[bold]{scenario.title}[/]")
-    console.print(f"[dim]scenario {scenario.name}, map {scenario.map}, {scenario.vehicles} other cars, {which}[/]")
+    console.print(f"[bold]{escape(scenario.title)}[/]")
+    world = f"scenario {scenario.name}, map {scenario.map}, {scenario.vehicles} other cars, {which}"
+    console.print(f"[dim]{escape(world)}[/]")
 
 
 def _load(model: str | None, scenario: Scenario) -> Translator:
     from wayword.models.embedded import EmbeddedModel
 
     path = model_path(model)
-    with errors.status(f"reading {path.name} and the knowledge base …"):
+    with errors.status(f"reading {escape(path.name)} and the knowledge base …"):
         translator = Translator(EmbeddedModel(path), load_map(scenario.map).place_names)
         translator.prepare()
     return translator
@@ -182,7 +186,7 @@ def _with_plots(console: Console, results: Iterator[RunResult]) -> list[RunResul
             console.print()
             console.print(summary(result))
             for path in (result.log, velocity, map_):
-                console.print(f"[dim]wrote[/] {path}", soft_wrap=True)
+                console.print(f"[dim]wrote[/] {escape(str(path))}", soft_wrap=True)
     return finished
 
 
@@ -190,10 +194,11 @@ def _print_sweep(console: Console, results: Sequence[RunResult]) -> None:
     for result in sorted(results, key=lambda result: result.seed):
         if not result.success:
             wrong = [f"{step.step.id} mistranslated" for step in result.mistranslated]
-            console.print(f"[red]seed {result.seed}[/]: " + "; ".join([*wrong, *result.failures]), soft_wrap=True)
+            what = escape("; ".join([*wrong, *result.failures]))
+            console.print(f"[red]seed {result.seed}[/]: {what}", soft_wrap=True)
     total = to_json(results)
     console.print(
         f"\n[bold]task success {total['successes']} of {total['runs']}[/] ({total['success_rate']:.1%}), "
         f"{total['collisions']} collisions, {total['red_lights_run']} red lights run"
     )
-    console.print(f"[dim]logs and plots in {results[0].log.parent.parent}[/]", soft_wrap=True)
+    console.print(f"[dim]logs and plots in {escape(str(results[0].log.parent.parent))}[/]", soft_wrap=True)

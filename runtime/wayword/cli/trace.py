@@ -34,16 +34,19 @@ class Trace:
         state = progress.state
         waiting = f", waiting for the moment of {progress.waiting_for.id}" if progress.waiting_for else ""
         self._status.update(
-            f"seed {self._seed}: {state.time_s:6.1f} s, {state.speed_mps * 3.6:3.0f} km/h, {state.road}{waiting}"
+            f"seed {self._seed}: {state.time_s:6.1f} s, {state.speed_mps * 3.6:3.0f} km/h, "
+            f"{escape(state.road)}{waiting}"
         )
         if progress.steps:
             self._show(progress.steps[-1])
 
     def _show(self, result: StepResult) -> None:
-        exchange = result.exchange
+        exchange, error = result.exchange, result.exchange.translation_error or ""
         self._once(result, "instruction", lambda: self._instruction(result))
         if exchange.translation is not None:
             self._once(result, "translation", lambda: self._translation(result))
+        if exchange.translation_error is not None:
+            self._once(result, "translation", lambda: self._line("translated", f"[red]not: {escape(error)}[/]"))
         if exchange.compilation is not None:
             self._once(result, "compilation", lambda: self._compilation(result))
         if exchange.done:
@@ -109,15 +112,19 @@ class Trace:
             self._console.print(f"{indent}[dim]│[/] {escape(line)}", soft_wrap=True)
 
 
+def _went_through_the_model(result: StepResult) -> bool:
+    return result.exchange.translation is not None or result.exchange.translation_error is not None
+
+
 def summary(result: RunResult) -> Table:
     """The verdict on one run."""
     table = Table.grid(padding=(0, 2))
     verdict = "[bold green]success[/]" if result.success else "[bold red]no success[/]"
     table.add_row("[bold]verdict[/]", verdict)
-    translated = [step for step in result.steps if step.exchange.translation is not None and step.step.program]
-    if translated:
-        right = len(translated) - len(result.mistranslated)
-        table.add_row("translated", f"{right} of {len(translated)} instructions as the gold programs")
+    judged = [step for step in result.steps if step.step.program and _went_through_the_model(step)]
+    if judged:
+        right = len(judged) - len(result.mistranslated)
+        table.add_row("translated", f"{right} of {len(judged)} instructions as the gold programs")
     for step in result.mistranslated:
         table.add_row("[red]mistranslated[/]", f"{step.step.id} “{escape(step.exchange.instruction)}”")
     for failure in result.failures:

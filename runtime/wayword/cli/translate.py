@@ -5,6 +5,7 @@ from time import perf_counter
 
 import click
 from pydantic import ValidationError
+from rich.markup import escape
 
 from wayword.cli.common import (
     FAILED,
@@ -17,7 +18,7 @@ from wayword.cli.common import (
     print_json,
 )
 from wayword.compiler import VehicleStatus, compile_program, render_all
-from wayword.models import InstructionTooLongError, ModelNotFoundError, Translator, model_path
+from wayword.models import InstructionError, ModelError, Translator, model_path
 from wayword.models.validation import explain
 from wayword.runtime.world import MapError, load_map
 
@@ -36,7 +37,7 @@ from wayword.runtime.world import MapError, load_map
 @click.option("--temperature", type=click.FloatRange(min=0), default=0.0, show_default=True, help="0: most probable.")
 @click.option("--seed", type=int, default=0, show_default=True, help="For temperatures above 0.")
 @json_option
-@friendly_errors(MapError, ModelNotFoundError, InstructionTooLongError)
+@friendly_errors(MapError, ModelError, InstructionError)
 def translate(
     text: str,
     map_name: str,
@@ -73,6 +74,7 @@ def translate(
                 "confidence": round(result.confidence, 4),
                 "model": translator.model.name,
                 "constrained": not no_constraint,
+                "finished": result.finished,
                 "load_ms": round(load_ms, 1),
                 "compiles": compiled.ok,
                 "diagnostics": [diagnostic.to_json() for diagnostic in compiled.diagnostics],
@@ -81,7 +83,8 @@ def translate(
     else:
         click.echo(result.program, nl=not result.program.endswith("\n"))
         seconds, rate = result.latency_ms / 1000, result.tokens / result.latency_ms * 1000
-        errors.print(f"[dim]{result.tokens} tokens in {seconds:.2f} s ({rate:.0f}/s), {translator.model.name}[/]")
+        name = escape(translator.model.name)
+        errors.print(f"[dim]{result.tokens} tokens in {seconds:.2f} s ({rate:.0f}/s), {name}[/]")
         if not compiled.ok and not no_constraint:
             click.echo(render_all(compiled.diagnostics, result.program, "<translation>"), err=True)
     if not compiled.ok and not no_constraint:
@@ -102,7 +105,7 @@ def _load(model: str | None, places: tuple[str, ...]) -> tuple[Translator, float
 
     path = model_path(model)
     started = perf_counter()
-    with errors.status(f"reading {path.name} and the knowledge base …"):
+    with errors.status(f"reading {escape(path.name)} and the knowledge base …"):
         translator = Translator(EmbeddedModel(path), places)
         translator.prepare()
     return translator, (perf_counter() - started) * 1000

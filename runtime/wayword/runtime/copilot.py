@@ -20,6 +20,7 @@ class Exchange:
         instruction: What the passenger said.
         time_s: Simulated time at which it was said.
         translation: What the model made of it; None for a program given directly.
+        translation_error: Why the model made nothing of it.
         compilation: What the compiler made of the program; None where there is no program.
         run: Its execution; None where it didn't compile.
         compile_ms: Wall-clock time of compiling.
@@ -31,6 +32,7 @@ class Exchange:
     instruction: str
     time_s: float
     translation: Translation | None = None
+    translation_error: str | None = None
     compilation: Compilation | None = None
     run: ProgramRun | None = None
     compile_ms: float = 0.0
@@ -67,6 +69,7 @@ class CoPilot:
         try:
             exchange.translation = translator.translate(exchange.instruction, status)
         except (ValueError, RuntimeError, OSError) as error:
+            exchange.translation_error = str(error)
             self._record("translation_failed", exchange, error=str(error))
             return
         self._record(

@@ -10,7 +10,7 @@ from wayword.models import Translator
 from wayword.runtime.copilot import CoPilot, Exchange
 from wayword.runtime.outcome import Outcome
 from wayword.runtime.recording import Recorder
-from wayword.runtime.scenario import Scenario, Step, Trigger
+from wayword.runtime.scenario import Scenario, ScenarioError, Step, Trigger
 from wayword.runtime.vehicle import VehicleState
 from wayword.runtime.world import Fault, Map, World
 
@@ -122,6 +122,7 @@ class Drive:
         as_translated: bool = False,
         watcher: Watcher | None = None,
     ) -> None:
+        _check(scenario, map_, gold=translator is None)
         self._scenario = scenario
         self._translator = translator
         self._as_translated = as_translated
@@ -154,6 +155,7 @@ class Drive:
             )
             self._copilot = CoPilot(self._world.vehicle, recorder)
             self._recorder = recorder
+            self._record_state()
             for step in self._scenario.steps:
                 if not self._wait_for(step):
                     break
@@ -208,7 +210,17 @@ class Drive:
                 return
         self._answered_s = self._world.time_s
         self._tell(None)
-        if step.expect is not None and any(outcome is not step.expect for outcome in result.outcomes):
+        self._judge_step(result)
+
+    def _judge_step(self, result: StepResult) -> None:
+        step, exchange = result.step, result.exchange
+        if exchange.translation_error is not None:
+            self._fail(f"{step.id}: not translated: {exchange.translation_error}")
+        if step.expect is None:
+            return
+        if exchange.run is None:
+            self._fail(f"{step.id}: nothing was executed: {exchange.feedback}")
+        elif any(outcome is not step.expect for outcome in result.outcomes):
             got = ", ".join(outcome.value for outcome in result.outcomes)
             self._fail(f"{step.id}: expected {step.expect.value}, got {got}: {exchange.feedback}")
 
@@ -320,6 +332,7 @@ class Drive:
                 for report in result.exchange.run.reports
             ]
             if not ended:
+                failures.append(f"the speed after {check.after} can't be judged: it has no outcome")
                 continue
             since_s = max(ended) + check.settle_s
             fastest = 3.6 * max((speed for time, speed in self._speeds if time >= since_s), default=0.0)
@@ -333,3 +346,17 @@ class Drive:
     def _tell(self, waiting_for: Step | None) -> None:
         if self._watcher is not None:
             self._watcher(Progress(self._world.vehicle.state(), self._result.steps, waiting_for))
+
+
+def _check(scenario: Scenario, map_: Map, *, gold: bool) -> None:
+    """Makes sure that the gold programs are there and name places of the map.
+
+    Raises:
+        ScenarioError: They aren't, or don't.
+    """
+    for step in scenario.steps:
+        if step.program is not None:
+            for diagnostic in compile_program(step.program, map_.place_names).diagnostics:
+                raise ScenarioError(f"{scenario.name}: {step.id}: {diagnostic.message}; {diagnostic.help}")
+        elif gold:
+            raise ScenarioError(f"{scenario.name}: {step.id} has no gold program to drive")

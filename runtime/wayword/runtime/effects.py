@@ -5,14 +5,16 @@ An effect gives what the executor has to watch or report, or the vehicle's refus
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import cast
 
 from wayword.compiler import Do, Scalar
-from wayword.runtime.answers import answer, kmh
+from wayword.runtime.answers import STANDING_MPS, answer, kmh
 from wayword.runtime.vehicle import (
     FactValue,
     Manoeuvre,
     ManoeuvreState,
     OperationMode,
+    Rationale,
     Refusal,
     TurnDirection,
     VehicleInterface,
@@ -42,8 +44,8 @@ def _answer(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
 
 def _set_destination(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
     place = do.word("place")
-    parked = vehicle.state().mode is OperationMode.PARKED
-    return vehicle.set_destination(place) or Effect({"destination": place, "variant": "parked" if parked else None})
+    under_way = vehicle.state().mode is OperationMode.AUTONOMOUS
+    return vehicle.set_destination(place) or Effect({"destination": place, "variant": None if under_way else "halted"})
 
 
 def _start(vehicle: VehicleInterface, _: Do) -> Effect | Refusal:
@@ -52,13 +54,12 @@ def _start(vehicle: VehicleInterface, _: Do) -> Effect | Refusal:
 
 def _stop(vehicle: VehicleInterface, _: Do) -> Effect | Refusal:
     destination = vehicle.state().destination
-    return vehicle.stop() or Effect(
-        {"destination": destination, "variant": "no_destination" if destination is None else None}
-    )
+    return vehicle.stop() or Effect({"variant": "no_destination" if destination is None else None})
 
 
 def _emergency_stop(vehicle: VehicleInterface, _: Do) -> Effect | Refusal:
-    return vehicle.emergency_stop() or Effect()
+    standing = vehicle.state().speed_mps < STANDING_MPS
+    return vehicle.emergency_stop() or Effect({"variant": "standing" if standing else None})
 
 
 def _set_parameter(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
@@ -67,12 +68,12 @@ def _set_parameter(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
     refusal = vehicle.set_parameter(name, number)
     if refusal is not None:
         return refusal
-    facts: dict[str, FactValue] = {"parameter": name}
-    if name == "max_vel" and isinstance(number, float):
-        limit = vehicle.state().speed_limit_mps
-        facts |= {"max_vel_kmh": kmh(number), "limit_kmh": kmh(limit)}
-        facts["variant"] = "above_limit" if number > limit else None
-    return Effect(facts)
+    if name != "max_vel" or not isinstance(number, float):
+        return Effect({"parameter": name, "value": str(value), "variant": "other"})
+    limit = vehicle.state().speed_limit_mps
+    above = number > limit * (1 + 1e-9)
+    facts: dict[str, FactValue] = {"max_vel_kmh": kmh(number), "limit_kmh": kmh(limit)}
+    return Effect({**facts, "variant": "above_limit" if above else None})
 
 
 _TURNS: dict[str, TurnDirection] = {"left": "left", "right": "right", "straight": "straight"}
@@ -98,11 +99,11 @@ def _override_traffic_light(vehicle: VehicleInterface, do: Do) -> Effect | Refus
 
 
 def _reject(_: VehicleInterface, do: Do) -> Effect | Refusal:
-    return Refusal(f"reject_{do.word('reason')}")
+    return Refusal(cast(Rationale, f"reject_{do.word('reason')}"))
 
 
 def _ask(_: VehicleInterface, do: Do) -> Effect | Refusal:
-    return Refusal(f"clarify_{do.word('about')}")
+    return Refusal(cast(Rationale, f"clarify_{do.word('about')}"))
 
 
 def _started(manoeuvre: Manoeuvre | Refusal, facts: dict[str, FactValue]) -> Effect | Refusal:

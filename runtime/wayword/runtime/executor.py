@@ -119,10 +119,17 @@ class Executor:
             if run is newer or run._awaiting is None:
                 continue
             if action == "EMERGENCY_STOP" or run.current.action.name in SUPERSEDED_BY.get(action, ()):
-                if run._manoeuvre is not None and run._manoeuvre.state is ManoeuvreState.RUNNING:
-                    self.vehicle.cancel(run._manoeuvre)
-                self._end(run, Outcome.SUPERSEDED, Refusal(f"by_{action.lower()}"))
+                if self._goes_on_regardless(run) and action != "EMERGENCY_STOP":
+                    continue
+                self._end(run, Outcome.SUPERSEDED, Refusal("superseded", {"by": action}))
                 self._advance(run)
+
+    def _goes_on_regardless(self, run: ProgramRun) -> bool:
+        """Calls a manoeuvre off; whether it is too late for that, as when the car is moving over already."""
+        if run._manoeuvre is not None and run._manoeuvre.state is ManoeuvreState.RUNNING:
+            self.vehicle.cancel(run._manoeuvre)
+            return run._manoeuvre.state is ManoeuvreState.RUNNING
+        return False
 
     def _watch(self, run: ProgramRun) -> None:
         awaited = run._awaiting

@@ -1,5 +1,6 @@
 """Plain sentences for the passenger, made from execution reports and nothing else."""
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from importlib.resources import files
@@ -7,8 +8,11 @@ from importlib.resources import files
 import yaml
 
 from wayword.compiler import Diagnostic
+from wayword.compiler.vocabulary import DRIVING_PARAMETERS
 from wayword.runtime.outcome import CommandReport, Outcome
 from wayword.runtime.vehicle import FactValue
+
+_PARAMETER = re.compile(rf"\b({'|'.join(DRIVING_PARAMETERS)})\b")
 
 
 def feedback(reports: Sequence[CommandReport]) -> str:
@@ -19,9 +23,10 @@ def feedback(reports: Sequence[CommandReport]) -> str:
 def sentence(report: CommandReport) -> str:
     """Says what became of one command."""
     action = report.command.action.name
-    facts = {"action": _spoken_action(action), **report.facts}
+    facts = {**report.facts, "action": _spoken_action(action)}
     if report.outcome is Outcome.SUCCEEDED:
-        return _answer(facts) if action == "QUERY" else _fill(_pick(_table("succeeded"), action, facts), facts)
+        text = _answer(facts) if action == "QUERY" else _fill(_pick(_table("succeeded"), action, facts), facts)
+        return _capitalised(text)
     if report.outcome in (Outcome.REFUSED, Outcome.FAILED):
         return _fill(_table(report.outcome)[str(report.rationale)], facts)
     return _capitalised(_fill(_table("general")[report.outcome], facts))
@@ -66,7 +71,8 @@ def _pick(texts: Mapping[str, str], key: str, facts: Mapping[str, FactValue]) ->
 
 
 def _fill(text: str, facts: Mapping[str, FactValue]) -> str:
-    return text.format_map(facts)
+    """Puts the facts into a text; parameters get the names that they have in speech."""
+    return _PARAMETER.sub(lambda match: _table("parameters")[match[0]], text.format_map(facts))
 
 
 def _spoken_action(action: str) -> str:

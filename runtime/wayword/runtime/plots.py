@@ -69,7 +69,7 @@ def plot_map(log: Path, target: Path) -> None:
 def _mark_places_of_instructions(axes: Axes, events: list[Event], states: list[Event]) -> None:
     for event in _instructions(events):
         at = min(states, key=lambda state: abs(state["t"] - event["t"]))
-        axes.plot(at["x"], at["y"], "o", color=_MARK, ms=5, zorder=4, label=f"{event['id']}  {event['text']}")
+        axes.plot(at["x"], at["y"], "o", color=_MARK, ms=5, zorder=4, label=_plain(f"{event['id']}  {event['text']}"))
         axes.annotate(
             event["id"],
             (at["x"], at["y"]),
@@ -135,7 +135,7 @@ def _mark_instructions(axes: Axes, events: list[Event]) -> None:
         side = "left" if event["t"] < late else "right"
         axes.axvline(event["t"], color=_MARK, lw=1, ls=":")
         axes.annotate(
-            f"{event['id']} {event['text']}",
+            _plain(f"{event['id']} {event['text']}"),
             (event["t"], 1.0),
             xycoords=("data", "axes fraction"),
             xytext=(4 if side == "left" else -4, -12 - 13 * (number % 4)),
@@ -146,6 +146,11 @@ def _mark_instructions(axes: Axes, events: list[Event]) -> None:
             bbox=_HALO,
             zorder=6,
         )
+
+
+def _plain(text: str) -> str:
+    """A text as it is: between two dollar signs matplotlib would read a formula."""
+    return text.replace("$", r"\$")
 
 
 def _title(events: list[Event]) -> str:

@@ -49,7 +49,7 @@ def read_log(path: Path) -> Iterator[Event]:
         LogError: The file or a line in it can't be read.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8").removesuffix("\n").split("\n")
     except (OSError, UnicodeDecodeError) as error:
         raise LogError(f"{path}: {error}") from error
     for number, line in enumerate(lines, start=1):

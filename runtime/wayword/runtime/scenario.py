@@ -3,18 +3,21 @@
 from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
-from typing import Literal
+from typing import Literal, Self
 
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from wayword.compiler import compile_program, render_all
-from wayword.models.validation import explain
+from wayword.models.validation import explain, is_text
 from wayword.runtime.outcome import Outcome
 
 
 class ScenarioError(Exception):
     """A scenario that can't be used. The message names the file and the entry."""
+
+
+_NAME = r"^[A-Za-z0-9_-]{1,64}$"  # it names files and folders
 
 
 class _Model(BaseModel):
@@ -70,12 +73,19 @@ class Step(_Model):
         expect: The outcome that every command of the program must have; None where any will do.
     """
 
-    id: str
+    id: str = Field(pattern=_NAME)
     say: str
     program: str | None = None
     when: Trigger = Trigger()
     within_s: float = Field(default=240.0, gt=0)
     expect: Outcome | None = Outcome.SUCCEEDED
+
+    @field_validator("say")
+    @classmethod
+    def _is_text(cls, say: str) -> str:
+        if not say.strip() or not is_text(say):
+            raise ValueError("is no text that can be said")
+        return say
 
     @field_validator("program")
     @classmethod
@@ -120,7 +130,7 @@ class Scenario(_Model):
         max_s: Simulated seconds after which the run is broken off.
     """
 
-    name: str
+    name: str = Field(pattern=_NAME)
     title: str
     map: str = "town"
     start: str
@@ -132,6 +142,17 @@ class Scenario(_Model):
     standstill_at_end: bool = False
     tail_s: float = Field(default=3.0, ge=0)
     max_s: float = Field(default=900.0, gt=0)
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        ids = [step.id for step in self.steps]
+        repeated = {name for name in ids if ids.count(name) > 1}
+        if repeated:
+            raise ValueError(f"several steps have the id {', '.join(sorted(repeated))}")
+        for check in self.speed_checks:
+            if check.after not in ids:
+                raise ValueError(f"a speed check refers to the step {check.after}, which isn't there")
+        return self
 
 
 def with_instructions(scenario: Scenario, instructions: Sequence[str], pause_s: float = 8.0) -> Scenario:
@@ -176,7 +197,7 @@ def load_scenario(name: str) -> Scenario:
             raise ScenarioError(f"{name}: {error}") from error
     try:
         return Scenario.model_validate(yaml.safe_load(text))
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, RecursionError) as error:
         raise ScenarioError(f"{name}: {error}") from error
     except ValidationError as error:
         raise ScenarioError(f"{name}: {explain(error)}") from error

@@ -20,6 +20,8 @@ def validate(vehicle: VehicleInterface, lowered: LoweredCommand) -> Refusal | No
         return Refusal("not_supported", {"action": action})
     allowed = {"REQUIRE": PREDICATES.keys(), "DO": EFFECTS.keys(), "AWAIT": CONDITIONS.keys()}
     if any(instruction.name not in allowed[instruction.opcode] for instruction in lowered.instructions):
+        if action in ("SET_PARAM", "ADJUST_PARAM"):
+            return Refusal("unsupported_parameter", {"parameter": lowered.command.arguments[0].name})
         return Refusal("not_supported", {"action": action})
     for instruction in lowered.instructions:
         if isinstance(instruction, Require):

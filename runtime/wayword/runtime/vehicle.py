@@ -17,6 +17,61 @@ TurnDirection = Literal["left", "right", "straight"]
 LightState = Literal["green", "yellow", "red"]
 FactValue = str | float | int | None
 
+Rationale = Literal[
+    # the validator
+    "not_supported",
+    "unsupported_parameter",
+    "unsupported_turn",
+    "not_under_way",
+    "no_destination",
+    "unknown_place",
+    "no_such_lane",
+    "no_traffic_light",
+    # the vehicle, at once
+    "emergency_braking",
+    "already_there",
+    "no_junction_ahead",
+    "turn_not_possible",
+    "too_close_to_junction",
+    "changing_lane",
+    # the vehicle, in the course of a manoeuvre
+    "no_gap",
+    "turn_missed",
+    # the executor
+    "timeout",
+    "superseded",
+    "cancelled",
+    "earlier_command_failed",
+    # what the passenger asked for lies out of scope, or is not clear
+    "reject_unrelated",
+    "reject_unsupported",
+    "reject_unsafe",
+    "reject_unknown_place",
+    "clarify_command",
+    "clarify_destination",
+    "clarify_direction",
+    "clarify_parameter",
+    "clarify_value",
+]
+"""Why a command was refused or failed. ``texts/en.yaml`` has a sentence for each."""
+
+Constraint = Literal[
+    "free_road",
+    "speed_limit",
+    "max_vel",
+    "curve",
+    "leader",
+    "red_light",
+    "yellow_light",
+    "junction_occupied",
+    "exit_blocked",
+    "destination",
+    "parked",
+    "stopping",
+    "emergency",
+]
+"""What can limit the vehicle's motion."""
+
 
 class OperationMode(StrEnum):
     """Who or what decides the vehicle's motion."""
@@ -40,11 +95,11 @@ class Refusal:
     """Why the vehicle won't do something now.
 
     Attributes:
-        code: The rationale, one of the codes that ``texts/en.yaml`` has a sentence for.
+        code: The rationale.
         facts: The numbers and names that the sentence needs.
     """
 
-    code: str
+    code: Rationale
     facts: Mapping[str, FactValue] = field(default_factory=dict)
 
 
@@ -70,13 +125,11 @@ class Binding:
     """The constraint that limits the vehicle's motion at this moment, from the planner's own trace.
 
     Attributes:
-        constraint: ``free_road``, ``speed_limit``, ``max_vel``, ``curve``, ``leader``, ``red_light``,
-            ``yellow_light``, ``junction_occupied``, ``exit_blocked``, ``lane_end``, ``destination``, ``parked``,
-            ``stopping`` or ``emergency``.
+        constraint: Its name.
         facts: Numbers and names behind it (``{"leader_kmh": 34}``).
     """
 
-    constraint: str
+    constraint: Constraint
     facts: Mapping[str, FactValue] = field(default_factory=dict)
 
 
@@ -190,7 +243,7 @@ class VehicleInterface(Protocol):
         ...
 
     def start(self) -> Refusal | None:
-        """Drive the trip by itself from now on."""
+        """Drive the trip by itself from now on. Refused during an emergency stop until the vehicle stands."""
         ...
 
     def stop(self) -> Refusal | None:

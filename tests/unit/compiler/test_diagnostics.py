@@ -35,6 +35,8 @@ CASES = [
     (program("SET_DESTINATION", destination="Harbour"), [("WW0401", 5, 12)], "did you mean `Harbor`"),
     (program("SET_DESTINATION", destination="9 Lives"), [("WW0402", 5, 12)], "name of a place"),
     (program("SET_PARAM", max_vel="250 km/h"), [("WW0303", 5, 12)], "5 to 130 km/h"),
+    ("command_type: MISSION\naction: START \n", [("WW0202", 2, 9)], "white space"),
+    ("command_type: MISSION\naction: START\n\n", [("WW0101", 3, 1)], "empty line"),
 ]
 
 
@@ -63,6 +65,24 @@ def test_rendered_with_the_source_line_and_carets() -> None:
         "  |            ^^^^^^^^",
         "  = help: 5 to 130 km/h are allowed",
     ]
+
+
+@pytest.mark.parametrize("word", ["Yes", "no", "on", "True", "null", "default"])
+def test_words_of_yaml_are_no_places_whatever_the_map(word: str) -> None:
+    source = program("SET_DESTINATION", destination=word)
+    assert [d.code.name for d in compile_program(source).diagnostics] == ["WW0402"]
+
+
+def test_control_characters_do_not_reach_the_terminal() -> None:
+    source = "command_type: MISSION\naction: ST\x1b[2JART\n"
+    rendered = render_all(compile_program(source).diagnostics, source)
+    assert "\x1b" not in rendered
+    assert "ST\ufffd[2JART" in rendered
+
+
+def test_ten_thousand_bad_commands_do_not_make_ten_thousand_diagnostics() -> None:
+    source = join(*["command_type: X\naction: Y\n"] * 10_000)
+    assert len(compile_program(source).diagnostics) == 2 * 4 + 1
 
 
 def test_without_a_map_any_well_formed_place_is_accepted() -> None:

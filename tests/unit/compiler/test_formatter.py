@@ -16,7 +16,6 @@ def canonical(source: str) -> str:
     ("written", "printed"),
     [
         ("90.0", "90 km/h"),
-        ("090", "90 km/h"),
         ("50.50 mph", "50.5 mph"),
         ("100", "100 km/h"),
         ("14.0 m/s", "14 m/s"),

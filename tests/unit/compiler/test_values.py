@@ -115,6 +115,8 @@ def test_a_unit_of_another_dimension_is_a_type_error(name: str, written: str) ->
         ("50.1234 km/h", "WW0305"),
         ("5e1 km/h", "WW0305"),
         (".5 km/h", "WW0305"),
+        ("090 km/h", "WW0305"),
+        ("00.5 km/h", "WW0305"),
         ("٥٠ km/h", "WW0305"),
         ("+50 km/h", "WW0306"),
         ("-50 km/h", "WW0306"),

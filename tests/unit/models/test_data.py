@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from wayword.models import DatasetError, ModelNotFoundError, model_path, read_records
+from wayword.models import DatasetError, ModelError, model_path, read_records
+from wayword.models.embedded import EmbeddedModel
 
 GOOD = '{"id": "1", "instruction": "Go.", "program": "command_type: MISSION\\naction: START\\n", "category": "MISSION"}'
 
@@ -32,9 +33,16 @@ def test_the_embedded_model_is_found() -> None:
 
 
 def test_a_model_that_is_missing_or_no_gguf_never_reaches_llama(tmp_path: Path) -> None:
-    with pytest.raises(ModelNotFoundError, match="no model file"):
+    with pytest.raises(ModelError, match="no model file"):
         model_path(str(tmp_path / "none.gguf"))
     path = tmp_path / "bad.gguf"
     path.write_bytes(b"not a model")
-    with pytest.raises(ModelNotFoundError, match="no GGUF file"):
+    with pytest.raises(ModelError, match="no GGUF file"):
         model_path(str(path))
+
+
+def test_a_broken_gguf_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "broken.gguf"
+    path.write_bytes(b"GGUF\x03\0\0\0garbage")
+    with pytest.raises(ModelError, match=r"broken\.gguf can't be loaded"):
+        EmbeddedModel(path)

@@ -8,7 +8,6 @@ from wayword.compiler import VehicleStatus
 from wayword.runtime.vehicle import (
     Binding,
     FactValue,
-    LightState,
     Manoeuvre,
     ManoeuvreState,
     OperationMode,
@@ -63,6 +62,7 @@ class ScriptedVehicle:
         self.refuses: dict[str, Refusal] = {}
         self.manoeuvre: Manoeuvre | None = None
         self.cancelled: list[Manoeuvre] = []
+        self.too_late_to_cancel = False
 
     def set(self, **state: object) -> None:
         self.now = replace(self.now, **state)  # type: ignore[arg-type]
@@ -70,9 +70,10 @@ class ScriptedVehicle:
     def wait(self, seconds: float) -> None:
         self.set(time_s=self.now.time_s + seconds)
 
-    def _call(self, name: str, *arguments: object) -> Refusal | None:
+    def _call(self, name: str, *arguments: object, **change: object) -> Refusal | None:
         if name in self.refuses:
             return self.refuses[name]
+        self.set(**change)
         self.calls.append((name, *arguments))
         return None
 
@@ -97,16 +98,13 @@ class ScriptedVehicle:
         return self._call("set_destination", place)
 
     def start(self) -> Refusal | None:
-        self.set(mode=OperationMode.AUTONOMOUS)
-        return self._call("start")
+        return self._call("start", mode=OperationMode.AUTONOMOUS)
 
     def stop(self) -> Refusal | None:
-        self.set(mode=OperationMode.STOPPING)
-        return self._call("stop")
+        return self._call("stop", mode=OperationMode.STOPPING)
 
     def emergency_stop(self) -> Refusal | None:
-        self.set(mode=OperationMode.EMERGENCY)
-        return self._call("emergency_stop")
+        return self._call("emergency_stop", mode=OperationMode.EMERGENCY)
 
     def set_parameter(self, name: str, value: float | str) -> Refusal | None:
         return self._call("set_parameter", name, value)
@@ -125,12 +123,9 @@ class ScriptedVehicle:
         return self._manoeuvre("lane_change", side)
 
     def override_traffic_light(self, state: Literal["green", "red"]) -> Refusal | None:
-        light: LightState = state
-        refusal = self._call("override_traffic_light", state)
-        if refusal is None:
-            self.set(traffic_light=light)
-        return refusal
+        return self._call("override_traffic_light", state, traffic_light=state)
 
     def cancel(self, manoeuvre: Manoeuvre) -> None:
-        manoeuvre.state = ManoeuvreState.FAILED
         self.cancelled.append(manoeuvre)
+        if not self.too_late_to_cancel:
+            manoeuvre.state = ManoeuvreState.FAILED

@@ -65,7 +65,16 @@ def test_a_setting_that_the_vehicle_lacks_is_refused() -> None:
     vehicle.refuses["set_parameter"] = Refusal("unsupported_parameter", {"parameter": "min_gap"})
     run = submit(Executor(vehicle), program("SET_PARAM", min_gap="3 m"))
     assert outcomes(run) == [(Outcome.REFUSED, "unsupported_parameter")]
-    assert "not yet supported by this vehicle: setting min_gap" in feedback(run.reports)
+    assert "not yet supported by this vehicle: setting gap at standstill" in feedback(run.reports)
+
+
+@pytest.mark.parametrize(
+    "source", [program("SET_PARAM", all="default"), program("SET_PARAM", following_distance="30 m")]
+)
+def test_a_setting_with_an_unknown_instruction_is_refused_by_its_name(source: str) -> None:
+    run = submit(Executor(ScriptedVehicle()), source)
+    assert outcomes(run) == [(Outcome.REFUSED, "unsupported_parameter")]
+    assert "not yet supported by this vehicle: setting" in feedback(run.reports)
 
 
 def test_set_max_vel_reaches_the_vehicle_in_si() -> None:
@@ -144,7 +153,7 @@ def test_a_newer_turn_supersedes_the_older_one_only() -> None:
     lane_change = submit(executor, SAMPLES["CHANGE_LANE"])
     older = submit(executor, SAMPLES["TURN"])
     newer = submit(executor, program("TURN", direction="left"))
-    assert outcomes(older) == [(Outcome.SUPERSEDED, "by_turn")]
+    assert outcomes(older) == [(Outcome.SUPERSEDED, "superseded")]
     assert not newer.done
     assert not lane_change.done
 
@@ -164,10 +173,33 @@ def test_emergency_stop_supersedes_everything() -> None:
     executor = Executor(vehicle)
     runs = [submit(executor, SAMPLES["TURN"]), submit(executor, SAMPLES["CHANGE_LANE"])]
     stop = submit(executor, program("EMERGENCY_STOP"))
-    assert all(outcomes(run) == [(Outcome.SUPERSEDED, "by_emergency_stop")] for run in runs)
+    assert all(outcomes(run) == [(Outcome.SUPERSEDED, "superseded")] for run in runs)
     vehicle.set(mode=OperationMode.PARKED, speed_mps=0.0)
     executor.step()
     assert outcomes(stop) == [(Outcome.SUCCEEDED, None)]
+
+
+def test_a_lane_change_that_cannot_be_called_off_any_more_ends_as_it_really_does() -> None:
+    vehicle = ScriptedVehicle()
+    executor = Executor(vehicle)
+    change = submit(executor, SAMPLES["CHANGE_LANE"])
+    vehicle.too_late_to_cancel = True
+    submit(executor, program("STOP"))
+    assert not change.done
+    assert vehicle.manoeuvre is not None
+    vehicle.manoeuvre.state = ManoeuvreState.DONE
+    executor.step()
+    assert outcomes(change) == [(Outcome.SUCCEEDED, None)]
+
+
+def test_a_refused_start_leaves_the_emergency_stop_alone() -> None:
+    vehicle = ScriptedVehicle()
+    executor = Executor(vehicle)
+    stop = submit(executor, program("EMERGENCY_STOP"))
+    vehicle.refuses["start"] = Refusal("emergency_braking")
+    assert outcomes(submit(executor, program("START"))) == [(Outcome.REFUSED, "emergency_braking")]
+    assert vehicle.now.mode is OperationMode.EMERGENCY
+    assert not stop.done
 
 
 def test_a_question_is_answered_while_a_turn_waits() -> None:

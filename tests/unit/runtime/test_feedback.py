@@ -1,6 +1,6 @@
 """What the passenger hears."""
 
-from string import Formatter
+from typing import get_args
 
 import pytest
 
@@ -10,7 +10,7 @@ from wayword.compiler import compile_program
 from wayword.compiler.vocabulary import ACTIONS, QUERY_ITEMS, Choice
 from wayword.runtime.executor import Executor
 from wayword.runtime.feedback import _table, feedback, not_compiled
-from wayword.runtime.vehicle import Binding, OperationMode
+from wayword.runtime.vehicle import Binding, Constraint, OperationMode, Rationale
 
 ANSWERS = [
     ("speed", {}, "We are driving 36 km/h."),
@@ -41,7 +41,7 @@ ANSWERS = [
     (
         "settings",
         {},
-        "My settings are: max_vel 50 km/h, following_distance 1.8 s and driving_style normal.",
+        "My settings are: maximum speed 50 km/h, following distance 1.8 s and driving style normal.",
     ),
     ("surroundings", {}, "Around us I see 2 cars: one ahead at 29 m and one on the right at 6 m."),
     ("surroundings", {"surroundings": ()}, "I see no other road users near us."),
@@ -81,11 +81,62 @@ def test_every_rejection_and_question_has_a_sentence() -> None:
 def test_a_program_with_errors_is_explained() -> None:
     result = compile_program(program("SET_PARAM", max_vel="250 km/h"))
     assert not_compiled(result.diagnostics) == (
-        "I can't do that: max_vel is out of bounds: 250 km/h. 5 to 130 km/h are allowed"
+        "I can't do that: maximum speed is out of bounds: 250 km/h. 5 to 130 km/h are allowed"
     )
 
 
-def test_texts_are_well_formed() -> None:
-    for table in ("answers", "modes", "reasons", "succeeded", "refused", "failed", "general"):
-        for text in _table(table).values():
-            assert list(Formatter().parse(text))
+FEEDBACK = [
+    ("START", {}, {}, "We are on our way to Harbor."),
+    ("STOP", {}, {"mode": OperationMode.PARKED}, "We have stopped. The route is kept."),
+    ("STOP", {}, {"mode": OperationMode.PARKED, "destination": None}, "We have stopped."),
+    ("SET_DESTINATION", {"destination": "Home"}, {}, "Our destination is now Home."),
+    (
+        "SET_DESTINATION",
+        {"destination": "Home"},
+        {"mode": OperationMode.STOPPING},
+        "Our destination is now Home. Say when we shall start.",
+    ),
+    ("SET_PARAM", {"max_vel": "50 km/h"}, {}, "The maximum speed is now 50 km/h."),
+    (
+        "SET_PARAM",
+        {"max_vel": "70 km/h"},
+        {},
+        "The maximum speed is now 70 km/h, but the limit of 50 km/h here still binds.",
+    ),
+    (
+        "SET_PARAM",
+        {"max_vel": "70 km/h"},
+        {"speed_limit_mps": 70 * 0.2777777777777},
+        "The maximum speed is now 70 km/h.",
+    ),
+    ("SET_PARAM", {"following_distance": "2 s"}, {}, "Following distance is now 2 s."),
+    ("OVERRIDE_TRAFFIC_LIGHT", {"state": "green"}, {}, "Thank you, I take the light as green now."),
+    (
+        "EMERGENCY_STOP",
+        {},
+        {"mode": OperationMode.PARKED, "speed_mps": 0.0},
+        "We are standing already and stay here.",
+    ),
+    ("OVERTAKE", {}, {}, "That is not yet supported by this vehicle: overtake."),
+]
+
+
+@pytest.mark.parametrize(("action", "parameters", "state", "expected"), FEEDBACK)
+def test_feedback_says_what_happened(
+    action: str, parameters: dict[str, str], state: dict[str, object], expected: str
+) -> None:
+    vehicle = ScriptedVehicle(**state)
+    executor = Executor(vehicle)
+    run = executor.submit(compile_program(program(action, **parameters)).commands)
+    vehicle.set(**state)
+    executor.step()
+    assert feedback(run.reports) == expected
+
+
+def test_every_rationale_has_a_sentence_and_every_sentence_a_rationale() -> None:
+    told_by_their_outcome = {"timeout", "earlier_command_failed"}
+    assert set(_table("refused")) | set(_table("failed")) == set(get_args(Rationale)) - told_by_their_outcome
+
+
+def test_every_constraint_of_the_planner_has_a_sentence() -> None:
+    assert {key.split(".")[0] for key in _table("reasons")} == set(get_args(Constraint))

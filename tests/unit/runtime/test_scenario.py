@@ -39,6 +39,11 @@ def test_a_file_of_ones_own(tmp_path: Path) -> None:
         (("start: Home", "begin: Home"), "begin: Extra inputs"),
         (("name: mine", "name: [mine"), "mine.yaml"),
         (("    say: Go.\n", ""), r"steps\.0\.say"),
+        (("say: Go.", r'say: "\uD83D"'), "no text"),
+        (("name: mine", "name: ../mine"), "name: String should match"),
+        (("start: Home", "start: Home\nspeed_checks: [{after: tX, settle_s: 1, at_most_kmh: 30}]"), "step tX"),
+        (("steps:", "steps:\n  - {id: t0, say: Stop.}"), "several steps have the id t0"),
+        (("steps:", "steps: " + "[" * 5000), "mine.yaml"),
     ],
 )
 def test_what_is_wrong_is_named(tmp_path: Path, change: tuple[str, str], message: str) -> None:

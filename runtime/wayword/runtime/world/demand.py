@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from wayword.runtime.vehicle import FactValue
+from wayword.runtime.vehicle import Constraint, FactValue
 
 
 class Demand(NamedTuple):
@@ -17,7 +17,7 @@ class Demand(NamedTuple):
     """
 
     acceleration: float
-    constraint: str
+    constraint: Constraint
     facts: Mapping[str, FactValue]
     urgent: bool = False
 

@@ -197,6 +197,8 @@ class EgoCar(Car):
 
     def start(self) -> Refusal | None:
         """Drive the trip from now on."""
+        if self.mode is OperationMode.EMERGENCY:
+            return Refusal("emergency_braking")
         if self.trip.goal is None:
             return Refusal("no_destination")
         if self.mode is OperationMode.PARKED and self.has_arrived():

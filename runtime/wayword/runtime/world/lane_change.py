@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Literal
 
-from wayword.runtime.vehicle import FactValue, Manoeuvre, ManoeuvreState, OperationMode, Refusal, Side
+from wayword.runtime.vehicle import FactValue, Manoeuvre, ManoeuvreState, OperationMode, Rationale, Refusal, Side
 from wayword.runtime.world.lateral import LANE_CHANGE_S, SHORTEST_LANE_CHANGE_M
 from wayword.runtime.world.longitudinal import lane_change_gap, rss_distance
 from wayword.runtime.world.network import LaneSegment
@@ -69,12 +69,12 @@ class LaneChange:
             self.moving = True
             car.shift_to(target, self.side)
 
-    def call_off(self, car: "Car", code: str) -> None:
+    def call_off(self, car: "Car", code: Rationale) -> None:
         """Give it up, unless the car is moving over already."""
         if not self.moving:
             self._end(car, ManoeuvreState.FAILED, code)
 
-    def _end(self, car: "Car", state: ManoeuvreState, code: str | None = None) -> None:
+    def _end(self, car: "Car", state: ManoeuvreState, code: Rationale | None = None) -> None:
         self.manoeuvre.state = state
         if code is not None:
             facts: dict[str, FactValue] = {"side": self.side}

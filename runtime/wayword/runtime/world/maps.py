@@ -3,13 +3,14 @@
 Nothing here needs the simulator, so that the names of places are at hand without it.
 """
 
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Self
 
 import yaml
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from wayword.compiler.diagnostics import MALFORMED_PLACE
+from wayword.compiler.values import is_place_name
 from wayword.runtime.world.map_checks import check_consistency
 
 if TYPE_CHECKING:
@@ -21,24 +22,15 @@ LANE_WIDTH_M = 4.0
 RIGHT_TURN_RADIUS_M = 12.0
 """Radius of a right turn from the outermost lane; it sets how large a junction is."""
 
-_PLACE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9.'-]*(?: [A-Za-z0-9.'-]+)*")
-_LONGEST_NAME = 40
-_YAML_WORDS = frozenset({"y", "n", "yes", "no", "on", "off", "true", "false", "null", "default"})
-
 
 class MapError(Exception):
     """A map can't be used. The message names the file and the entry."""
 
 
 def _place_name(name: str) -> str:
-    """Check a place's name against language.md section 1."""
-    if len(name) > _LONGEST_NAME or not _PLACE_NAME.fullmatch(name):
-        raise ValueError(
-            f"{name!r} is no place name: a letter, then letters, digits, .'- and single spaces, "
-            f"{_LONGEST_NAME} characters at most"
-        )
-    if name.lower() in _YAML_WORDS:
-        raise ValueError(f"{name!r} is no place name: it is a word of YAML or of the language")
+    """Check a place's name against language.md section 2."""
+    if not is_place_name(name):
+        raise ValueError(f"{name!r} is no place name: {MALFORMED_PLACE.explanation}")
     return name
 
 
@@ -191,7 +183,7 @@ def _read(path: Path) -> object:
         content: object = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
         raise MapError(f"{path}: can't be read: {error}") from None
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, RecursionError) as error:
         raise MapError(f"{path}: is no YAML: {error}") from None
     return content
 

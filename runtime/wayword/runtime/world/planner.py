@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING
 
-from wayword.runtime.vehicle import FactValue, OperationMode
+from wayword.runtime.vehicle import Constraint, FactValue, OperationMode
 from wayword.runtime.world import right_of_way
 from wayword.runtime.world.demand import Demand, kmh
 from wayword.runtime.world.lateral import LENGTH_M
@@ -105,7 +105,7 @@ def _cruise(car: "Car") -> Demand:
     acceleration = free_acceleration(car.speed, wanted, p.max_accel, p.max_decel)
     if car.speed < 0.93 * wanted:
         return Demand(acceleration, "free_road", {"wanted_kmh": kmh(wanted)})
-    name = "max_vel" if p.max_vel < limit else "speed_limit"
+    name: Constraint = "max_vel" if p.max_vel < limit else "speed_limit"
     return Demand(acceleration, name, {"limit_kmh": kmh(limit), "max_vel_kmh": kmh(p.max_vel)})
 
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from wayword.runtime.vehicle import FactValue
+from wayword.runtime.vehicle import Constraint, FactValue
 from wayword.runtime.world.demand import Demand, kmh
 from wayword.runtime.world.lateral import LENGTH_M
 from wayword.runtime.world.longitudinal import required_deceleration, stop_acceleration
@@ -50,7 +50,7 @@ def next_line(car: "Car") -> StopLine | None:
     return None
 
 
-def _stop_at(car: "Car", line: StopLine, name: str, reason: str | None = None) -> Demand:
+def _stop_at(car: "Car", line: StopLine, name: Constraint, reason: str | None = None) -> Demand:
     acceleration = stop_acceleration(car.speed, line.distance, car.parameters.max_decel)
     facts: dict[str, FactValue] = {
         "junction": line.approach.end.name,

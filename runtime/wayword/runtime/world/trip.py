@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from wayword.runtime.vehicle import Manoeuvre, ManoeuvreState, Refusal, TurnDirection
+from wayword.runtime.vehicle import Manoeuvre, ManoeuvreState, Rationale, Refusal, TurnDirection
 from wayword.runtime.world.maps import SignalTiming
 from wayword.runtime.world.network import LaneSegment, Link, Network, Place
 from wayword.runtime.world.router import RouteTable
@@ -29,7 +29,7 @@ class TurnRequest:
         self.direction: TurnDirection = direction
         self.manoeuvre = Manoeuvre("turn", facts={"direction": direction, "junction": approach.end.name})
 
-    def finish(self, state: ManoeuvreState, code: str | None = None) -> None:
+    def finish(self, state: ManoeuvreState, code: Rationale | None = None) -> None:
         """End it."""
         self.manoeuvre.state = state
         if code is not None:
