@@ -80,6 +80,7 @@ def test_places_are_checked_against_the_map() -> None:
         ("translate", "  "),
         ("translate", "Go.", "--model", "no-such-model.gguf"),
         ("translate", "Go.", "--status", '{"speed": 3}'),
+        ("translate", "stop \udcff now"),
         ("drive", "--scenario", "no-such-scenario"),
         ("drive", "--programs", "--text", "Go."),
         ("drive", "--runs", "0"),
@@ -98,6 +99,107 @@ def test_bad_input_with_json_is_one_json_object() -> None:
     result = run("compile", "no-such-file.yaml", "--json")
     assert result.exit_code == 2
     assert "no-such-file.yaml" in json.loads(result.stdout)["error"]
+
+
+@pytest.mark.parametrize("arguments", [("drive", "--runs", "0"), ("compile",), ("no-such-command",)])
+def test_bad_usage_with_json_is_one_json_object_too(arguments: tuple[str, ...]) -> None:
+    result = run(*arguments, "--json")
+    assert result.exit_code == 2
+    assert json.loads(result.stdout)["error"]
+
+
+@pytest.mark.parametrize("prefix", ["", "\ufeff"])
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+def test_files_and_standard_input_are_read_alike(tmp_path: Path, prefix: str, newline: str) -> None:
+    content = (prefix + program("TURN", direction="left").replace("\n", newline)).encode()
+    path = tmp_path / "trip.yaml"
+    path.write_bytes(content)
+    piped = subprocess.run([sys.executable, "-m", "wayword", "compile", "-"], input=content, capture_output=True)
+    assert run("compile", str(path)).exit_code == piped.returncode == 0
+
+
+def test_what_is_no_program_at_all_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "trip.yaml"
+    for content, words in ((b"\xff\xfe", "UTF-8"), (b"x" * 100_000, "at most 4 commands")):
+        path.write_bytes(content)
+        result = run("compile", str(path))
+        assert result.exit_code == 2
+        assert words in result.stderr
+    assert run("compile", str(tmp_path)).exit_code == 2
+
+
+SCENARIO = """
+name: mine
+title: "50 [/b] $ and $ more"
+start: Home
+destination: Harbor
+tail_s: 0
+steps:
+  - id: t0
+    say: "What does $x$ [/] cost,\\u2028 please?"
+    program: |
+      command_type: OUT_OF_SCOPE
+      action: REJECT
+      parameters:
+        - name: reason
+          value: unrelated
+    expect: refused
+"""
+
+
+def test_a_scenario_with_awkward_words_is_driven_and_drawn(tmp_path: Path) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text(SCENARIO, encoding="utf-8")
+    result = run("drive", "--programs", "--scenario", str(path), "--out", str(tmp_path / "o[/x]"))
+    assert result.exit_code == 0
+    assert "$x$ [/] cost" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("action: REJECT", "action: STAR"), "START"),
+        (("reason\n          value: unrelated", "reason\n          value: bored"), "unrelated"),
+        (("start: Home", "start: Atlantis"), "Atlantis"),
+        (("destination: Harbor", "destination: Atlantis"), "Atlantis"),
+    ],
+)
+def test_a_scenario_that_makes_no_sense_is_refused(tmp_path: Path, change: tuple[str, str], words: str) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text(SCENARIO.replace(*change), encoding="utf-8")
+    result = run("drive", "--programs", "--scenario", str(path), "--out", str(tmp_path / "out"))
+    assert result.exit_code == 2
+    assert words in result.stderr
+
+
+def test_gold_programs_must_name_places_of_the_map(tmp_path: Path) -> None:
+    elsewhere = """command_type: MISSION
+      action: SET_DESTINATION
+      parameters:
+        - name: destination
+          value: Atlantis
+"""
+    begin, end = SCENARIO.index("command_type"), SCENARIO.index("    expect")
+    path = tmp_path / "mine.yaml"
+    path.write_text(SCENARIO[:begin] + elsewhere + SCENARIO[end:], encoding="utf-8")
+    result = run("drive", "--programs", "--scenario", str(path), "--out", str(tmp_path / "out"))
+    assert result.exit_code == 2
+    assert "Atlantis" in result.stderr
+
+
+def test_an_output_folder_that_cannot_be_made_is_refused_before_the_drive(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    result = run("drive", "--programs", "--out", str(tmp_path / "file"))
+    assert result.exit_code == 2
+    assert "file" in result.stderr
+
+
+def test_a_trip_that_fails_ends_with_status_1(tmp_path: Path) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text(SCENARIO.replace("expect: refused", "expect: succeeded"), encoding="utf-8")
+    result = run("drive", "--programs", "--scenario", str(path), "--json", "--out", str(tmp_path / "out"))
+    assert result.exit_code == 1
+    assert "expected succeeded, got refused" in json.loads(result.stdout)["details"][0]["failures"][0]
 
 
 def test_grammar_prints_a_linted_constraint_with_the_places_of_the_map() -> None:

@@ -36,7 +36,7 @@ def plot_velocity(log: Path, target: Path) -> None:
     axes.plot(times, [state["speed"] * 3.6 for state in states], color=_ROUTE, lw=1.8, label="velocity")
     _shade_lights(axes, states)
     _mark_instructions(axes, events)
-    axes.set(xlabel="time [s]", ylabel="velocity [km/h]", xlim=(0, max(times, default=1)), ylim=(0, None))
+    axes.set(xlabel="time [s]", ylabel="velocity [km/h]", xlim=(0, max([1.0, *times])), ylim=(0, None))
     axes.set_ylim(0, axes.get_ylim()[1] * 1.4)  # room for the labels of the instructions
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False, ncols=3, fontsize=9)

@@ -46,6 +46,18 @@ def test_a_turn_right_before_the_goal_passes_it_and_comes_back() -> None:
     assert arrive(world, 500)
 
 
+def test_an_emergency_stop_cannot_be_released_before_the_car_stands() -> None:
+    world = _under_way()
+    vehicle = world.vehicle
+    drive(world, 4)
+    vehicle.emergency_stop()
+    assert code(vehicle.start()) == "emergency_braking"
+    assert vehicle.stop() is None
+    assert vehicle.state().mode is OperationMode.EMERGENCY
+    assert drive(world, 10, lambda: vehicle.state().mode is OperationMode.PARKED)
+    assert vehicle.start() is None
+
+
 def test_a_second_turn_supersedes_the_first_and_cancelling_returns_to_the_route() -> None:
     world = _under_way()
     vehicle = world.vehicle
