@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from wayword.runtime.drive import RunResult
 from wayword.runtime.outcome import Outcome
 from wayword.runtime.plots import plot_map, plot_velocity
 from wayword.runtime.recording import Event, read_log
+from wayword.runtime.result import RunResult
 from wayword.runtime.scenario import load_scenario
 from wayword.runtime.sweep import run_gold, sweep_gold
 

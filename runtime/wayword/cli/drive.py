@@ -14,9 +14,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from wayword.cli.common import FAILED, errors, fail, friendly_errors, json_option, model_option, print_json
 from wayword.cli.trace import Trace, summary
 from wayword.models import ModelError, Translator, model_path
-from wayword.runtime.drive import RunResult
 from wayword.runtime.plots import plot_map, plot_velocity
 from wayword.runtime.recording import LogError
+from wayword.runtime.result import RunResult
 from wayword.runtime.scenario import Scenario, ScenarioError, load_scenario, with_instructions
 from wayword.runtime.sweep import run_gold, sweep_gold, sweep_translated
 from wayword.runtime.world import MapError, load_map

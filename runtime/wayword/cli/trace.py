@@ -7,8 +7,8 @@ from rich.markup import escape
 from rich.status import Status
 from rich.table import Table
 
-from wayword.runtime.drive import Progress, RunResult, StepResult
 from wayword.runtime.outcome import Outcome
+from wayword.runtime.result import Progress, RunResult, StepResult
 
 _COLOURS = {Outcome.SUCCEEDED: "green", Outcome.REFUSED: "yellow"}
 _LABEL_WIDTH = 13

@@ -6,7 +6,8 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from wayword.models import Translator
-from wayword.runtime.drive import Drive, RunResult, Watcher
+from wayword.runtime.drive import Drive
+from wayword.runtime.result import RunResult, Watcher
 from wayword.runtime.scenario import Scenario
 from wayword.runtime.world import load_map
 
