@@ -10,18 +10,7 @@ from typing import Any
 import llama_cpp
 import pytest
 
-TOWN = (
-    "Campus Building",
-    "Main Station",
-    "City Hall",
-    "Hospital",
-    "Museum",
-    "Stadium",
-    "Supermarket",
-    "Library",
-    "Harbor",
-    "Home",
-)
+from tests.town import TOWN
 
 
 class LlamaEngine:

@@ -3,22 +3,11 @@
 import random
 from collections.abc import Sequence
 
+from tests.town import TOWN
 from wayword.grammar import load, specialise, to_gbnf
 from wayword.models import Completion, Message, model_path
 from wayword.models.embedded import EmbeddedModel
 
-TOWN = (
-    "Campus Building",
-    "Main Station",
-    "City Hall",
-    "Hospital",
-    "Museum",
-    "Stadium",
-    "Supermarket",
-    "Library",
-    "Harbor",
-    "Home",
-)
 # fmt: off
 WORDS = (
     "please", "go", "stop", "turn", "left", "right", "faster", "slower", "the", "car", "ahead", "light", "green",

@@ -6,7 +6,8 @@ from multiprocessing import get_context
 
 import pytest
 
-from tests.unit.models.hot_generation import TOWN, generate, one_command
+from tests.town import TOWN
+from tests.unit.models.hot_generation import generate, one_command
 from wayword.compiler import compile_program
 from wayword.grammar import constraint, parser
 from wayword.models.backend import InstructionError, Message

@@ -10,25 +10,13 @@ from typing import Any
 import pytest
 import yaml
 
+from tests.town import TOWN
 from wayword.runtime.world import Map, MapError, load_map
 from wayword.runtime.world.maps import MAPS_FOLDER
 
-PLACES = {
-    "Campus Building",
-    "Main Station",
-    "City Hall",
-    "Hospital",
-    "Museum",
-    "Stadium",
-    "Supermarket",
-    "Library",
-    "Harbor",
-    "Home",
-}
-
 
 def test_the_town_names_the_places_of_the_language(town: Map) -> None:
-    assert set(town.place_names) == PLACES
+    assert set(town.place_names) == set(TOWN)
 
 
 def test_place_names_need_no_simulator() -> None:
@@ -44,7 +32,7 @@ def test_place_names_need_no_simulator() -> None:
 def test_the_outline_has_a_stop_line_for_every_light(town: Map) -> None:
     outline = town.outline()
     assert len(outline.stop_lines) == len(outline.lights) == 4 * 3 + 3 * 4
-    assert set(outline.places) == PLACES
+    assert set(outline.places) == set(TOWN)
     assert len(outline.lanes) == 2 * 2 * len(town.roads)
 
 
