@@ -46,12 +46,15 @@ class LazyGroup(click.Group):
     def main(self, args: Sequence[str] | None = None, *rest: Any, **extra: Any) -> Any:
         """Runs the command line, with bad usage as a JSON object where ``--json`` asks for one."""
         words = list(sys.argv[1:] if args is None else args)
-        if "--json" not in words:
-            return super().main(words, *rest, **extra)
         try:
+            if "--json" not in words:
+                return super().main(words, *rest, **extra)
             status = super().main(words, *rest, **{**extra, "standalone_mode": False})
         except click.ClickException as error:
             fail(error.format_message(), as_json=True)
+        except OSError as error:  # standard output is full, or gone
+            errors.print(f"[bold red]error:[/] can't write: {escape(str(error))}")
+            sys.exit(FAILED)
         sys.exit(status if isinstance(status, int) else 0)
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature

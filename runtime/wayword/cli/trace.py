@@ -120,6 +120,8 @@ def summary(result: RunResult) -> Table:
     """The verdict on one run."""
     table = Table.grid(padding=(0, 2))
     verdict = "[bold green]success[/]" if result.success else "[bold red]no success[/]"
+    if result.success and all(step.step.expect is None for step in result.steps):
+        verdict = "[bold]driven[/], without anything to judge it by"
     table.add_row("[bold]verdict[/]", verdict)
     judged = [step for step in result.steps if step.step.program and _went_through_the_model(step)]
     if judged:
