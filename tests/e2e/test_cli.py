@@ -84,6 +84,8 @@ def test_places_are_checked_against_the_map() -> None:
         ("drive", "--scenario", "no-such-scenario"),
         ("drive", "--programs", "--text", "Go."),
         ("drive", "--runs", "0"),
+        ("drive", "--text", ""),
+        ("drive", "--jobs", "2"),
         ("explain", "WW9999"),
         ("no-such-command",),
     ],
@@ -199,7 +201,7 @@ def test_a_trip_that_fails_ends_with_status_1(tmp_path: Path) -> None:
     path.write_text(SCENARIO.replace("expect: refused", "expect: succeeded"), encoding="utf-8")
     result = run("drive", "--programs", "--scenario", str(path), "--json", "--out", str(tmp_path / "out"))
     assert result.exit_code == 1
-    assert "expected succeeded, got refused" in json.loads(result.stdout)["details"][0]["failures"][0]
+    assert "expected succeeded, got REJECT refused" in json.loads(result.stdout)["details"][0]["failures"][0]
 
 
 def test_grammar_prints_a_linted_constraint_with_the_places_of_the_map() -> None:
@@ -213,6 +215,7 @@ def test_grammar_prints_a_linted_constraint_with_the_places_of_the_map() -> None
 def test_explain() -> None:
     assert "bounds" in run("explain", "ww0303").stdout
     assert "WW0101" in run("explain").stdout
+    assert "WW0303" in json.loads(run("explain", "--json").stdout)
 
 
 def test_drive_json(tmp_path: Path) -> None:
@@ -223,6 +226,10 @@ def test_drive_json(tmp_path: Path) -> None:
     assert answer["success_rate"] == 1.0
     assert (answer["collisions"], answer["red_lights_run"]) == (0, 0)
     assert answer["outcomes"] == {"succeeded": 6}
+    (detail,) = answer["details"]
+    assert [said["id"] for said in detail["instructions"]] == ["t0", "t1", "t2", "t3", "t4", "t5"]
+    assert all(said["outcomes"] and said["feedback"] for said in detail["instructions"])
+    assert all(Path(plot).is_file() for plot in detail["plots"])
     folder = tmp_path / "reference" / "seed-3"
     assert {path.name for path in folder.iterdir()} == {"log.jsonl", "velocity.png", "map.png"}
 

@@ -95,4 +95,10 @@ def _hint(rest: str) -> str | None:
         return "indent with two spaces, not with tabs"
     if rest.startswith("#"):
         return "comments are not part of the language"
-    return None if rest.strip() else "remove the empty line"
+    if not rest.strip():
+        return "remove the empty line"
+    if rest.startswith(" "):
+        return "two spaces before `- name:`, four before `value:`, none elsewhere"
+    if rest.startswith("action:"):
+        return "`command_type:` comes before `action:`"
+    return None

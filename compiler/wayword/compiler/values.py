@@ -80,7 +80,10 @@ def read_delta(name: str, kind: Quantity, text: str) -> Value | Problem:
 def _read_word(name: str, options: Sequence[str], text: str) -> Value | Problem:
     if text in options:
         return Word(text)
-    return Problem(UNKNOWN_WORD, f"{name} can't be `{text}`", f"one of {', '.join(options)}")
+    hint = f"one of {', '.join(options)}"
+    if text.strip("'\"") in options:
+        hint = "leave out the quotation marks"
+    return Problem(UNKNOWN_WORD, f"{name} can't be `{text}`", hint)
 
 
 def _read_place(text: str, places: Sequence[str] | None) -> Value | Problem:

@@ -53,4 +53,4 @@ def read_records(path: Path) -> Iterator[Record]:
         try:
             yield Record.model_validate_json(line)
         except ValidationError as error:
-            raise DatasetError(f"{path}:{number}: {explain(error)}") from error
+            raise DatasetError(f"{path}:{number}: {explain(error, Record)}") from error

@@ -1,6 +1,10 @@
 """Checks of input, and what to say of it in a line."""
 
-from pydantic import ValidationError
+from collections.abc import Sequence
+from difflib import get_close_matches
+from typing import TypeGuard, get_args
+
+from pydantic import BaseModel, ValidationError
 
 
 def is_text(text: str) -> bool:
@@ -12,11 +16,36 @@ def is_text(text: str) -> bool:
     return True
 
 
-def explain(error: ValidationError) -> str:
-    """Names every mistake that pydantic found: where it is and what is wrong with it."""
+def explain(error: ValidationError, model: type[BaseModel]) -> str:
+    """Names every mistake that pydantic found: where it is, what is wrong with it, and what may be meant.
+
+    Args:
+        error: The mistakes.
+        model: The model that was to be read.
+    """
     mistakes = []
     for mistake in error.errors():
         where = ".".join(str(part) for part in mistake["loc"])
         message = mistake["msg"].removeprefix("Value error, ")
+        if mistake["type"] == "extra_forbidden":
+            message = f"unknown key; {_suggest(str(mistake['loc'][-1]), _keys(model, mistake['loc'][:-1]))}"
         mistakes.append(f"{where}: {message}" if where else message)
     return "; ".join(mistakes)
+
+
+def _suggest(word: str, known: Sequence[str]) -> str:
+    near = get_close_matches(word, known, n=1)
+    return f"did you mean `{near[0]}`?" if near else f"the keys are {', '.join(known)}"
+
+
+def _keys(model: type[BaseModel], path: Sequence[int | str]) -> list[str]:
+    """The keys that may stand at a place in a document."""
+    for part in path:
+        if isinstance(part, str) and part in model.model_fields:
+            annotation = model.model_fields[part].annotation
+            model = next(filter(_is_model, (annotation, *get_args(annotation))), model)
+    return list(model.model_fields)
+
+
+def _is_model(annotation: object) -> TypeGuard[type[BaseModel]]:
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)

@@ -20,7 +20,7 @@ _COMMANDS = {
     cls=LazyGroup,
     lazy=_COMMANDS,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-    epilog="Start with: wayword drive --scenario reference",
+    epilog="Start with: wayword drive --programs (the vehicle alone), then wayword drive (with the model)",
 )
 @click.version_option(package_name="wayword", prog_name="wayword")
 def main() -> None:

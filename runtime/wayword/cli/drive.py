@@ -12,24 +12,31 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from wayword.cli.common import FAILED, errors, fail, friendly_errors, json_option, model_option, print_json
-from wayword.cli.trace import Trace, summary
-from wayword.models import ModelError, Translator, model_path
+from wayword.cli.model import load_translator
+from wayword.cli.trace import Trace, print_summary
+from wayword.models import ModelError, Translator
+from wayword.runtime.drive import check_scenario
 from wayword.runtime.plots import plot_map, plot_velocity
 from wayword.runtime.recording import LogError
-from wayword.runtime.result import RunResult
+from wayword.runtime.result import RunResult, StepResult
 from wayword.runtime.scenario import Scenario, ScenarioError, load_scenario, with_instructions
 from wayword.runtime.sweep import run_gold, sweep_gold, sweep_translated
 from wayword.runtime.world import MapError, load_map
 
+VELOCITY, MAP = "velocity.png", "map.png"
+_SCENARIOS_OWN = "\0"  # --text without a value
+
 
 @click.command()
-@click.option("--scenario", "name", default="reference", show_default=True, help="A scenario's name or YAML file.")
+@click.option(
+    "--scenario", "name", default="reference", show_default=True, help="A built-in scenario (reference) or a YAML file."
+)
 @click.option(
     "--text",
     "texts",
     multiple=True,
     is_flag=False,
-    flag_value="",
+    flag_value=_SCENARIOS_OWN,
     metavar="[TEXT]",
     help="Say this in place of the scenario's instructions; may be given several times. Alone, without TEXT: take "
     "the scenario's instructions as text (the default).",
@@ -63,7 +70,8 @@ def drive(
 
     Each instruction is shown with its program, executor instructions, outcome and feedback. The event log (JSON
     Lines), the velocity over time and the map with the driven route are written below the output folder. Ends with
-    exit status 1 if an instruction was mistranslated or anything else went wrong.
+    exit status 1 if an instruction was mistranslated or anything else went wrong. What a scenario file holds is in
+    docs/scenarios.md.
 
     \b
     Examples:
@@ -72,11 +80,17 @@ def drive(
       wayword drive --text "Start." --text "How fast are we going?"
     """
     scenario = load_scenario(name)
-    own = [text for text in texts if text.strip()]
+    own = [text for text in texts if text != _SCENARIOS_OWN]
+    if any(not text.strip() for text in own):
+        fail("there is no instruction: a --text is empty", as_json=as_json)
+    if jobs is not None and not programs:
+        fail("--jobs goes with --programs: the model uses all cores already", as_json=as_json)
     if own and programs:
         fail("--programs has no gold programs for your own --text; leave out one of the two", as_json=as_json)
     if own:
         scenario = with_instructions(scenario, own)
+    map_ = load_map(scenario.map)
+    check_scenario(scenario, map_, gold=programs)
     seeds = range(seed, seed + runs)
     out.mkdir(parents=True, exist_ok=True)  # better to fail now than after the drive
     console = Console(quiet=as_json, highlight=False)
@@ -84,7 +98,7 @@ def drive(
     if programs:
         results = _drive_gold(console, scenario, seeds, out, jobs or os.cpu_count() or 1)
     else:
-        translator = _load(model, scenario)
+        translator, _ = load_translator(model, map_.place_names)
         results = _drive_translated(console, scenario, seeds, out, translator, as_translated)
     finished = _with_plots(console, results)
     if as_json:
@@ -103,6 +117,7 @@ def to_json(results: Sequence[RunResult]) -> dict[str, object]:
         outcomes.update(result.outcomes)
     return {
         "runs": len(results),
+        "judged": all(result.judged for result in results),
         "successes": successes,
         "success_rate": successes / len(results),
         "collisions": sum(result.collisions for result in results),
@@ -116,10 +131,26 @@ def to_json(results: Sequence[RunResult]) -> dict[str, object]:
                 "mistranslated": [step.step.id for step in result.mistranslated],
                 "failures": result.failures,
                 "duration_s": round(result.duration_s, 1),
+                "instructions": [_instruction_json(step) for step in result.steps],
                 "log": str(result.log),
+                "plots": [str(result.log.with_name(name)) for name in (VELOCITY, MAP)],
             }
             for result in sorted(results, key=lambda result: result.seed)
         ],
+    }
+
+
+def _instruction_json(result: StepResult) -> dict[str, object]:
+    exchange = result.exchange
+    return {
+        "id": result.step.id,
+        "t": round(exchange.time_s, 3),
+        "text": exchange.instruction,
+        "translation": exchange.translation.program if exchange.translation else None,
+        "mistranslated": result.mistranslated,
+        "program": exchange.compilation.source if exchange.compilation else None,
+        "outcomes": [report.to_json() for report in exchange.run.reports] if exchange.run else [],
+        "feedback": exchange.feedback,
     }
 
 
@@ -128,16 +159,6 @@ def _announce(console: Console, scenario: Scenario, seeds: range) -> None:
     console.print(f"[bold]{escape(scenario.title)}[/]")
     world = f"scenario {scenario.name}, map {scenario.map}, {scenario.vehicles} other cars, {which}"
     console.print(f"[dim]{escape(world)}[/]")
-
-
-def _load(model: str | None, scenario: Scenario) -> Translator:
-    from wayword.models.embedded import EmbeddedModel
-
-    path = model_path(model)
-    with errors.status(f"reading {escape(path.name)} and the knowledge base …"):
-        translator = Translator(EmbeddedModel(path), load_map(scenario.map).place_names)
-        translator.prepare()
-    return translator
 
 
 def _drive_gold(console: Console, scenario: Scenario, seeds: range, out: Path, jobs: int) -> Iterator[RunResult]:
@@ -179,12 +200,12 @@ def _with_bar(console: Console, results: Iterator[RunResult], total: int) -> Ite
 def _with_plots(console: Console, results: Iterator[RunResult]) -> list[RunResult]:
     finished = list(results)
     for result in finished:
-        velocity, map_ = result.log.with_name("velocity.png"), result.log.with_name("map.png")
+        velocity, map_ = result.log.with_name(VELOCITY), result.log.with_name(MAP)
         plot_velocity(result.log, velocity)
         plot_map(result.log, map_)
         if len(finished) == 1:
             console.print()
-            console.print(summary(result))
+            print_summary(console, result)
             for path in (result.log, velocity, map_):
                 console.print(f"[dim]wrote[/] {escape(str(path))}", soft_wrap=True)
     return finished
@@ -197,6 +218,9 @@ def _print_sweep(console: Console, results: Sequence[RunResult]) -> None:
             what = escape("; ".join([*wrong, *result.failures]))
             console.print(f"[red]seed {result.seed}[/]: {what}", soft_wrap=True)
     total = to_json(results)
+    if not total["judged"]:
+        console.print(f"\n[bold]{total['runs']} drives[/], without anything to judge them by")
+        return
     console.print(
         f"\n[bold]task success {total['successes']} of {total['runs']}[/] ({total['success_rate']:.1%}), "
         f"{total['collisions']} collisions, {total['red_lights_run']} red lights run"

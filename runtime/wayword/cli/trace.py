@@ -1,11 +1,10 @@
 """Shows a drive on the terminal while it runs: each stage of each instruction, and where the car is."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from rich.console import Console
 from rich.markup import escape
 from rich.status import Status
-from rich.table import Table
 
 from wayword.runtime.outcome import Outcome
 from wayword.runtime.result import Progress, RunResult, StepResult
@@ -75,14 +74,13 @@ class Trace:
             )
             return
         self._line("translated", f"[bold red]wrongly[/] [dim]{times}[/]")
-        self._program(translation.program)
-        self._line("expected", "[dim]the gold program:[/]")
+        self._program("", translation.program)
+        self._line("expected", "[dim]the gold program[/]")
 
     def _compilation(self, result: StepResult) -> None:
         compilation = result.exchange.compilation
         assert compilation is not None
-        self._line("program", "")
-        self._program(compilation.source)
+        self._program("program", compilation.source)
         instructions = [str(i) for command in compilation.commands for i in command.instructions]
         for number, instruction in enumerate(instructions):
             self._line("" if number else "instructions", escape(instruction))
@@ -106,36 +104,47 @@ class Trace:
     def _line(self, label: str, text: str) -> None:
         self._console.print(f"   [dim]{label:<{_LABEL_WIDTH}}[/]{text}", soft_wrap=True)
 
-    def _program(self, program: str) -> None:
-        indent = " " * (_LABEL_WIDTH + 3)
-        for line in program.rstrip("\n").split("\n"):
-            self._console.print(f"{indent}[dim]│[/] {escape(line)}", soft_wrap=True)
+    def _program(self, label: str, program: str) -> None:
+        for number, line in enumerate(program.rstrip("\n").split("\n")):
+            self._line("" if number else label, f"[dim]│[/] {escape(line)}")
 
 
 def _went_through_the_model(result: StepResult) -> bool:
     return result.exchange.translation is not None or result.exchange.translation_error is not None
 
 
-def summary(result: RunResult) -> Table:
-    """The verdict on one run."""
-    table = Table.grid(padding=(0, 2))
-    verdict = "[bold green]success[/]" if result.success else "[bold red]no success[/]"
-    if result.success and all(step.step.expect is None for step in result.steps):
-        verdict = "[bold]driven[/], without anything to judge it by"
-    table.add_row("[bold]verdict[/]", verdict)
-    judged = [step for step in result.steps if step.step.program and _went_through_the_model(step)]
-    if judged:
-        right = len(judged) - len(result.mistranslated)
-        table.add_row("translated", f"{right} of {len(judged)} instructions as the gold programs")
+def print_summary(console: Console, result: RunResult) -> None:
+    """Prints the verdict on one run."""
+    for label, text in _summary(result):
+        console.print(f"{label:<{_LABEL_WIDTH + 3}}{text}", soft_wrap=True)
+
+
+def _summary(result: RunResult) -> Iterator[tuple[str, str]]:
+    yield "verdict", _verdict(result)
     for step in result.mistranslated:
-        table.add_row("[red]mistranslated[/]", f"{step.step.id} “{escape(step.exchange.instruction)}”")
+        yield "mistranslated", f"{step.step.id} “{escape(step.exchange.instruction)}”"
     for failure in result.failures:
-        table.add_row("[red]failure[/]", escape(failure))
-    table.add_row("outcomes", ", ".join(f"{count} {outcome}" for outcome, count in sorted(result.outcomes.items())))
-    table.add_row(
+        yield "failure", f"[red]{escape(failure)}[/]"
+    yield "outcomes", ", ".join(f"{count} {outcome}" for outcome, count in sorted(result.outcomes.items()))
+    yield (
         "safety",
         f"{result.collisions} collisions, {result.red_lights_run} red lights run, "
-        f"{result.red_lights_overridden} passed on the passenger's word",
+        f"{result.red_lights_overridden} red lights passed because the passenger called them green",
     )
-    table.add_row("duration", f"{result.duration_s:.0f} simulated seconds")
-    return table
+    yield "duration", f"{result.duration_s:.0f} simulated seconds"
+
+
+def _verdict(result: RunResult) -> str:
+    if not result.judged:
+        return "[bold]driven[/], without anything to judge it by"
+    if result.success:
+        return "[bold green]success[/]"
+    reasons = []
+    judged = sum(step.step.program is not None and _went_through_the_model(step) for step in result.steps)
+    if result.mistranslated:
+        reasons.append(f"{len(result.mistranslated)} of {judged} instructions mistranslated")
+    if result.failures:
+        reasons.append(f"{len(result.failures)} failures")
+    elif result.mistranslated:
+        reasons.append("the vehicle itself did all that it should")
+    return f"[bold red]no success[/]: {'; '.join(reasons)}"

@@ -1,7 +1,6 @@
 """``wayword translate``: words to a program."""
 
 import sys
-from time import perf_counter
 
 import click
 from pydantic import ValidationError
@@ -17,8 +16,9 @@ from wayword.cli.common import (
     model_option,
     print_json,
 )
+from wayword.cli.model import load_translator
 from wayword.compiler import VehicleStatus, compile_program, render_all
-from wayword.models import InstructionError, ModelError, Translator, model_path
+from wayword.models import InstructionError, ModelError
 from wayword.models.validation import explain
 from wayword.runtime.world import MapError, load_map
 
@@ -50,7 +50,8 @@ def translate(
 ) -> None:
     """Translate TEXT, what a passenger says, into a program of the Wayword language, offline.
 
-    The program goes to standard output, so that it can be piped into `wayword compile -`.
+    The program goes to standard output, so that it can be piped into `wayword compile -`. Each call loads the model
+    anew, which takes some 10 seconds; the translation itself takes about one.
 
     \b
     Examples:
@@ -61,7 +62,7 @@ def translate(
     if not text.strip():
         fail("there is no instruction: TEXT is empty", as_json=as_json)
     status = _status(status_json, as_json)
-    translator, load_ms = _load(model, load_map(map_name).place_names)
+    translator, load_s = load_translator(model, load_map(map_name).place_names)
     result = translator.translate(text, status, constrained=not no_constraint, temperature=temperature, seed=seed)
     compiled = compile_program(result.program, translator.places)
     if as_json:
@@ -75,7 +76,7 @@ def translate(
                 "model": translator.model.name,
                 "constrained": not no_constraint,
                 "finished": result.finished,
-                "load_ms": round(load_ms, 1),
+                "load_ms": round(load_s * 1000, 1),
                 "compiles": compiled.ok,
                 "diagnostics": [diagnostic.to_json() for diagnostic in compiled.diagnostics],
             }
@@ -97,15 +98,4 @@ def _status(status_json: str | None, as_json: bool) -> VehicleStatus:
     try:
         return VehicleStatus.model_validate_json(status_json)
     except ValidationError as error:
-        fail(f"--status: {explain(error)}", as_json=as_json)
-
-
-def _load(model: str | None, places: tuple[str, ...]) -> tuple[Translator, float]:
-    from wayword.models.embedded import EmbeddedModel
-
-    path = model_path(model)
-    started = perf_counter()
-    with errors.status(f"reading {escape(path.name)} and the knowledge base …"):
-        translator = Translator(EmbeddedModel(path), places)
-        translator.prepare()
-    return translator, (perf_counter() - started) * 1000
+        fail(f"--status: {explain(error, VehicleStatus)}", as_json=as_json)

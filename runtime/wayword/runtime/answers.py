@@ -1,6 +1,6 @@
 """Answers to QUERY: facts from the vehicle's state and its planner's trace, never invented."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from wayword.runtime.vehicle import FactValue, SeenVehicle, VehicleState
 
@@ -57,7 +57,7 @@ def _destination(state: VehicleState, _: Settings) -> Facts:
     if state.destination is None:
         return {"variant": "none"}
     if state.waypoints:
-        return {"destination": state.destination, "waypoints": _listed(state.waypoints), "variant": "via"}
+        return {"destination": state.destination, "waypoints": listed(state.waypoints), "variant": "via"}
     return {"destination": state.destination}
 
 
@@ -113,7 +113,7 @@ def _operation_mode(state: VehicleState, _: Settings) -> Facts:
 
 
 def _settings(_: VehicleState, settings: Settings) -> Facts:
-    return {"settings": _listed([f"{name} {_spoken_setting(name, value)}" for name, value in settings.items()])}
+    return {"settings": listed([f"{name} {_spoken_setting(name, value)}" for name, value in settings.items()])}
 
 
 def _surroundings(state: VehicleState, _: Settings) -> Facts:
@@ -123,7 +123,7 @@ def _surroundings(state: VehicleState, _: Settings) -> Facts:
     count = len(state.surroundings)
     return {
         "count": "1 car" if count == 1 else f"{count} cars",
-        "listed": _listed([_spoken_vehicle(vehicle) for vehicle in nearest]),
+        "listed": listed([_spoken_vehicle(vehicle) for vehicle in nearest]),
     }
 
 
@@ -144,7 +144,8 @@ def _spoken_setting(name: str, value: FactValue) -> str:
     return str(value)
 
 
-def _listed(items: tuple[str, ...] | list[str]) -> str:
+def listed(items: Sequence[str]) -> str:
+    """Several things as one says them: a, b and c."""
     return ", ".join(items[:-1]) + (" and " if len(items) > 1 else "") + items[-1] if items else ""
 
 

@@ -1,8 +1,10 @@
 """Drives a scenario: the world, the passenger who speaks at the right moments, and the verdict."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 from wayword.compiler import compile_program, equivalent
+from wayword.compiler.checker import suggest
 from wayword.models import Translator
 from wayword.runtime.copilot import CoPilot
 from wayword.runtime.recording import Recorder
@@ -38,7 +40,7 @@ class Drive:
         as_translated: bool = False,
         watcher: Watcher | None = None,
     ) -> None:
-        _check(scenario, map_, gold=translator is None)
+        check_scenario(scenario, map_, gold=translator is None)
         self._scenario = scenario
         self._translator = translator
         self._as_translated = as_translated
@@ -73,9 +75,12 @@ class Drive:
             self._recorder = recorder
             self._record_state()
             for step in self._scenario.steps:
-                if not self._wait_for(step):
+                in_time = self._wait_for(step)
+                if self._broken_off():
                     break
                 self._take(step)
+                if in_time:  # else it has failed already, whatever came of it
+                    self._judge_step(self._result.steps[-1])
             self._drive_on(self._scenario.tail_s)
             self._judge()
             recorder.record(
@@ -92,12 +97,12 @@ class Drive:
         return self._result
 
     def _wait_for(self, step: Step) -> bool:
-        """Drives until the step's moment has come; False where the run has to be broken off."""
+        """Drives until the step's moment has come; False where it didn't."""
         began = self._world.time_s
         while not self._due(step.when):
             if self._world.time_s - began > step.within_s:
-                self._fail(f"{step.id}: the moment to say it did not come within {step.within_s:g} s")
-                return True
+                self._fail(f"{step.id}: the moment to say it did not come within {step.within_s:g} s; it was said then")
+                return False
             if not self._tick(step):
                 return False
         return True
@@ -122,11 +127,9 @@ class Drive:
         self._tell(None)
         while not exchange.done:
             if not self._tick(None):
-                self._fail(f"{step.id}: no outcome when the run was broken off")
                 return
         self._answered_s = self._world.time_s
         self._tell(None)
-        self._judge_step(result)
 
     def _judge_step(self, result: StepResult) -> None:
         step, exchange = result.step, result.exchange
@@ -136,9 +139,12 @@ class Drive:
             return
         if exchange.run is None:
             self._fail(f"{step.id}: nothing was executed: {exchange.feedback}")
-        elif any(outcome is not step.expect for outcome in result.outcomes):
-            got = ", ".join(outcome.value for outcome in result.outcomes)
-            self._fail(f"{step.id}: expected {step.expect.value}, got {got}: {exchange.feedback}")
+            return
+        for report in exchange.run.reports:
+            if report.outcome is not step.expect:
+                why = f" ({report.rationale})" if report.rationale else ""
+                got = f"{report.command.action.name} {report.outcome.value}{why}"
+                self._fail(f"{step.id}: expected {step.expect.value}, got {got}")
 
     def _same(self, program: str | None, gold: str) -> bool:
         if program is None:
@@ -187,10 +193,7 @@ class Drive:
 
     def _tick(self, waiting_for: Step | None) -> bool:
         """One step of the world; False once the run has taken too long."""
-        if self._world.time_s >= self._scenario.max_s:
-            message = f"broken off after {self._scenario.max_s:g} s"
-            if message not in self._result.failures:
-                self._fail(message)
+        if self._broken_off():
             return False
         self._world.step()
         self._copilot.step()
@@ -198,6 +201,9 @@ class Drive:
         self._record_state()
         self._tell(waiting_for)
         return True
+
+    def _broken_off(self) -> bool:
+        return self._world.time_s >= self._scenario.max_s
 
     def _record_state(self) -> None:
         state = self._world.vehicle.state()
@@ -226,6 +232,8 @@ class Drive:
     def _judge(self) -> None:
         result, monitor = self._result, self._world.monitor
         result.duration_s = self._world.time_s
+        if self._broken_off():
+            self._fail(f"broken off after {self._scenario.max_s:g} s")
         result.collisions = monitor.collisions
         result.red_lights_run = monitor.red_lights_run
         result.red_lights_overridden = monitor.red_lights_overridden
@@ -264,15 +272,28 @@ class Drive:
             self._watcher(Progress(self._world.vehicle.state(), self._result.steps, waiting_for))
 
 
-def _check(scenario: Scenario, map_: Map, *, gold: bool) -> None:
-    """Makes sure that the gold programs are there and name places of the map.
+def check_scenario(scenario: Scenario, map_: Map, *, gold: bool) -> None:
+    """Makes sure that a scenario fits its map, and that there are gold programs where they are to be driven.
 
     Raises:
-        ScenarioError: They aren't, or don't.
+        ScenarioError: It doesn't, or there aren't; all mistakes are named.
     """
+    mistakes = list(_mistakes(scenario, map_, gold=gold))
+    if mistakes:
+        raise ScenarioError("\n".join(f"scenario {scenario.name}: {mistake}" for mistake in mistakes))
+
+
+def _mistakes(scenario: Scenario, map_: Map, *, gold: bool) -> Iterator[str]:
+    junctions = [junction.id for junction in map_.junctions]
+    for key, name, known in (
+        ("start", scenario.start, map_.place_names),
+        ("destination", scenario.destination, map_.place_names),
+        *(("faults.junction", fault.junction, junctions) for fault in scenario.faults),
+    ):
+        if name is not None and name not in known:
+            yield f"{key}: `{name}` isn't on the map {map_.name}; {suggest(name, known)}"
     for step in scenario.steps:
-        if step.program is not None:
-            for diagnostic in compile_program(step.program, map_.place_names).diagnostics:
-                raise ScenarioError(f"{scenario.name}: {step.id}: {diagnostic.message}; {diagnostic.help}")
-        elif gold:
-            raise ScenarioError(f"{scenario.name}: {step.id} has no gold program to drive")
+        if step.program is None and gold:
+            yield f"steps.{step.id}: there is no gold program to drive"
+        for diagnostic in compile_program(step.program, map_.place_names).diagnostics if step.program else ():
+            yield f"steps.{step.id}.program, line {diagnostic.span.line}: {diagnostic.message}; {diagnostic.help}"

@@ -71,7 +71,7 @@ def _set_parameter(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
     if name != "max_vel" or not isinstance(number, float):
         return Effect({"parameter": name, "value": str(value), "variant": "other"})
     limit = vehicle.state().speed_limit_mps
-    above = number > limit * (1 + 1e-9)
+    above = kmh(number) > kmh(limit)  # as the passenger hears them
     facts: dict[str, FactValue] = {"max_vel_kmh": kmh(number), "limit_kmh": kmh(limit)}
     return Effect({**facts, "variant": "above_limit" if above else None})
 

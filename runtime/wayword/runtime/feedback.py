@@ -9,6 +9,7 @@ import yaml
 
 from wayword.compiler import Diagnostic
 from wayword.compiler.vocabulary import DRIVING_PARAMETERS
+from wayword.runtime.answers import listed
 from wayword.runtime.outcome import CommandReport, Outcome
 from wayword.runtime.vehicle import FactValue
 
@@ -16,12 +17,16 @@ _PARAMETER = re.compile(rf"\b({'|'.join(DRIVING_PARAMETERS)})\b")
 
 
 def feedback(reports: Sequence[CommandReport]) -> str:
-    """Says what became of a program: a sentence for each command."""
-    return " ".join(sentence(report) for report in reports)
+    """Says what became of a program: a sentence for each command, one for all that were not started."""
+    sentences = [sentence(report) for report in reports if report.outcome is not Outcome.CANCELLED]
+    left_out = [_spoken_action(report.command.action.name) for report in reports if report.outcome is Outcome.CANCELLED]
+    if left_out:
+        sentences.append(_fill(_table("general")["cancelled"], {"actions": listed(left_out)}))
+    return " ".join(sentences)
 
 
 def sentence(report: CommandReport) -> str:
-    """Says what became of one command."""
+    """Says what became of one command that was started."""
     action = report.command.action.name
     facts = {**report.facts, "action": _spoken_action(action)}
     if report.outcome is Outcome.SUCCEEDED:
@@ -76,7 +81,7 @@ def _fill(text: str, facts: Mapping[str, FactValue]) -> str:
 
 
 def _spoken_action(action: str) -> str:
-    return action.lower().replace("_", " ")
+    return _table("actions")[action]
 
 
 def _capitalised(text: str) -> str:

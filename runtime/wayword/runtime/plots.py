@@ -1,6 +1,7 @@
 """Plots of a recorded drive, made from its event log."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,8 @@ from wayword.runtime.world import Map, load_map
 
 _INK, _ROUTE, _LIMIT, _MARK = "#24292f", "#0969da", "#bc4c00", "#8250df"
 _ROAD, _LANE_LINE = "#d0d7de", "#ffffff"
-_HALO = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
+_HALO = {"facecolor": "white", "edgecolor": "none", "alpha": 1.0, "pad": 0.8}
+_MOST_SENTENCES, _LABEL_ROWS = 8, 4
 
 
 def plot_velocity(log: Path, target: Path) -> None:
@@ -39,7 +41,7 @@ def plot_velocity(log: Path, target: Path) -> None:
     axes.set(xlabel="time [s]", ylabel="velocity [km/h]", xlim=(0, max([1.0, *times])), ylim=(0, None))
     axes.set_ylim(0, axes.get_ylim()[1] * 1.4)  # room for the labels of the instructions
     axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False, ncols=3, fontsize=9)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False, ncols=4, fontsize=9)
     axes.set_title(_title(events), loc="left", color=_INK, fontsize=11)
     _save(figure, target)
 
@@ -114,31 +116,39 @@ def _band(line: Sequence[tuple[float, float]], half_width: float) -> NDArray[np.
 
 
 def _shade_lights(axes: Axes, states: list[Event]) -> None:
-    """Shades the times at which the light ahead is taken for red while it truly is green."""
-    labelled = False
+    """Shades the times at which the vehicle waits at a red light, truly red or not."""
+
+    def waits(state: Event, *true_lights: str) -> bool:
+        standing = state["speed"] < 0.1 and state["binding"] == "red_light"
+        return standing and state["light"] == "red" and state["true_light"] in true_lights
+
+    _shade(axes, states, lambda state: waits(state, "red", "yellow"), "#6e7781", "waiting at a red light")
+    _shade(axes, states, lambda state: waits(state, "green"), "#cf222e", "green light misread as red")
+
+
+def _shade(axes: Axes, states: list[Event], holds: Callable[[Event], bool], colour: str, label: str) -> None:
     start: float | None = None
-    for state in [*states, None]:
-        misread = state is not None and state["light"] == "red" and state["true_light"] == "green"
-        if misread and start is None and state is not None:
+    for state, following in pairwise([*states, states[-1]]):
+        if holds(state) and start is None:
             start = state["t"]
-        elif not misread and start is not None:
-            end = state["t"] if state is not None else states[-1]["t"]
-            label = None if labelled else "green light misread as red"
-            axes.axvspan(start, end, color="#cf222e", alpha=0.12, lw=0, label=label)
-            labelled, start = True, None
+        if start is not None and not (holds(state) and following is not state):
+            axes.axvspan(start, state["t"], color=colour, alpha=0.14, lw=0, label=label)
+            start, label = None, "_"  # only the first one goes into the legend
 
 
 def _mark_instructions(axes: Axes, events: list[Event]) -> None:
-    """Marks when each instruction was given; neighbours' labels stand on different heights."""
+    """Marks when each instruction was given; where there are many, by its name alone."""
+    given = _instructions(events)
     late = 0.7 * max(event["t"] for event in events)
-    for number, event in enumerate(_instructions(events)):
+    for number, event in enumerate(given):
         side = "left" if event["t"] < late else "right"
+        text = event["id"] if len(given) > _MOST_SENTENCES else f"{event['id']} {event['text']}"
         axes.axvline(event["t"], color=_MARK, lw=1, ls=":")
         axes.annotate(
-            _plain(f"{event['id']} {event['text']}"),
+            _plain(text),
             (event["t"], 1.0),
             xycoords=("data", "axes fraction"),
-            xytext=(4 if side == "left" else -4, -12 - 13 * (number % 4)),
+            xytext=(4 if side == "left" else -4, -12 - 13 * (number % _LABEL_ROWS)),  # neighbours on different heights
             textcoords="offset points",
             fontsize=8,
             color=_MARK,

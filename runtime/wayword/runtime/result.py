@@ -68,6 +68,11 @@ class RunResult:
         return not self.failures and not self.mistranslated
 
     @property
+    def judged(self) -> bool:
+        """Whether there was anything to judge the run by, other than safety."""
+        return any(step.step.program is not None or step.step.expect is not None for step in self.steps)
+
+    @property
     def outcomes(self) -> Counter[str]:
         """How many commands had which outcome."""
         return Counter(outcome.value for step in self.steps for outcome in step.outcomes)

@@ -168,7 +168,14 @@ def with_instructions(scenario: Scenario, instructions: Sequence[str], pause_s: 
         for index, text in enumerate(instructions)
     )
     return scenario.model_copy(
-        update={"steps": steps, "speed_checks": (), "standstill_at_end": False, "tail_s": 2 * pause_s}
+        update={
+            "name": f"{scenario.name}-own-text",
+            "title": "Your own instructions in the world of this scenario",
+            "steps": steps,
+            "speed_checks": (),
+            "standstill_at_end": False,
+            "tail_s": 2 * pause_s,
+        }
     )
 
 
@@ -200,4 +207,4 @@ def load_scenario(name: str) -> Scenario:
     except (yaml.YAMLError, RecursionError) as error:
         raise ScenarioError(f"{name}: {error}") from error
     except ValidationError as error:
-        raise ScenarioError(f"{name}: {explain(error)}") from error
+        raise ScenarioError(f"{name}: {explain(error, Scenario)}") from error

@@ -19,7 +19,11 @@ def test_records_come_back_and_empty_lines_are_passed_over(tmp_path: Path) -> No
 
 @pytest.mark.parametrize(
     ("line", "message"),
-    [('{"id": "1"}', "instruction: Field required"), ("{", "data.jsonl:2"), (GOOD[:-1] + ', "x": 1}', "x: Extra")],
+    [
+        ('{"id": "1"}', "instruction: Field required"),
+        ("{", "data.jsonl:2"),
+        (GOOD[:-1] + ', "x": 1}', "x: unknown key"),
+    ],
 )
 def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
     path = tmp_path / "data.jsonl"

@@ -233,7 +233,7 @@ def test_after_a_failure_the_rest_is_not_started_and_the_passenger_hears_so() ->
         (Outcome.CANCELLED, "earlier_command_failed"),
     ]
     assert vehicle.calls == []
-    assert "did not start the rest: stop" in feedback(run.reports)
+    assert "I left out the rest: stopping and your question." in feedback(run.reports)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from tests.programs import program
 from tests.unit.runtime.scripted_vehicle import ScriptedVehicle
 from wayword.compiler import compile_program
-from wayword.compiler.vocabulary import ACTIONS, QUERY_ITEMS, Choice
+from wayword.compiler.vocabulary import ACTIONS, DRIVING_PARAMETERS, QUERY_ITEMS, Choice
 from wayword.runtime.executor import Executor
 from wayword.runtime.feedback import _table, feedback, not_compiled
 from wayword.runtime.vehicle import Binding, Constraint, OperationMode, Rationale
@@ -117,7 +117,7 @@ FEEDBACK = [
         {"mode": OperationMode.PARKED, "speed_mps": 0.0},
         "We are standing already and stay here.",
     ),
-    ("OVERTAKE", {}, {}, "That is not yet supported by this vehicle: overtake."),
+    ("OVERTAKE", {}, {}, "That is not yet supported by this vehicle: overtaking."),
 ]
 
 
@@ -136,6 +136,11 @@ def test_feedback_says_what_happened(
 def test_every_rationale_has_a_sentence_and_every_sentence_a_rationale() -> None:
     told_by_their_outcome = {"timeout", "earlier_command_failed"}
     assert set(_table("refused")) | set(_table("failed")) == set(get_args(Rationale)) - told_by_their_outcome
+
+
+def test_every_action_and_parameter_has_a_name_in_speech() -> None:
+    assert set(_table("actions")) == set(ACTIONS)
+    assert set(_table("parameters")) == {*DRIVING_PARAMETERS, "all"}
 
 
 def test_every_constraint_of_the_planner_has_a_sentence() -> None:

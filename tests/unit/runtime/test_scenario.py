@@ -36,10 +36,11 @@ def test_a_file_of_ones_own(tmp_path: Path) -> None:
     ("change", "message"),
     [
         (("action: START", "action: STAR"), "did you mean `START`"),
-        (("start: Home", "begin: Home"), "begin: Extra inputs"),
+        (("start: Home", "begin: Home"), "begin: unknown key"),
         (("name: mine", "name: [mine"), "mine.yaml"),
         (("    say: Go.\n", ""), r"steps\.0\.say"),
         (("say: Go.", r'say: "\uD83D"'), "no text"),
+        (("say: Go.", "say: Go.\n    when: {aftr_s: 3}"), "did you mean `after_s`"),
         (("name: mine", "name: ../mine"), "name: String should match"),
         (("start: Home", "start: Home\nspeed_checks: [{after: tX, settle_s: 1, at_most_kmh: 30}]"), "step tX"),
         (("steps:", "steps:\n  - {id: t0, say: Stop.}"), "several steps have the id t0"),

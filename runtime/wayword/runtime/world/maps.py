@@ -182,7 +182,7 @@ def _read(path: Path) -> object:
     try:
         content: object = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
-        raise MapError(f"{path}: can't be read: {error}") from None
+        raise MapError(f"{path}: can't be read: {getattr(error, 'strerror', None) or error}") from None
     except (yaml.YAMLError, RecursionError) as error:
         raise MapError(f"{path}: is no YAML: {error}") from None
     return content
