@@ -99,7 +99,9 @@ def _draw_map(axes: Axes, map_: Map) -> None:
     axes.add_collection(LineCollection(outline.stop_lines, colors=_INK, linewidths=1.4, zorder=2))
     for name, (x, y) in outline.places.items():
         axes.plot(x, y, "s", color=_INK, ms=5, zorder=3)
-        axes.annotate(name, (x, y), xytext=(6, -12), textcoords="offset points", color=_INK, fontsize=8, zorder=5)
+        axes.annotate(
+            name, (x, y), xytext=(7, -13), textcoords="offset points", color=_INK, fontsize=8, bbox=_HALO, zorder=5
+        )
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.margins(0.03)
