@@ -100,7 +100,7 @@ def _draw_map(axes: Axes, map_: Map) -> None:
     for name, (x, y) in outline.places.items():
         axes.plot(x, y, "s", color=_INK, ms=5, zorder=3)
         axes.annotate(
-            name, (x, y), xytext=(7, -13), textcoords="offset points", color=_INK, fontsize=8, bbox=_HALO, zorder=5
+            name, (x, y), xytext=(7, -13), textcoords="offset points", color=_INK, fontsize=8, bbox=_HALO, zorder=2.5
         )
     axes.set_aspect("equal")
     axes.autoscale_view()
