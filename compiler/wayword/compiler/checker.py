@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 from wayword.compiler.diagnostics import (
     MISSING_PARAMETER,
@@ -18,6 +17,7 @@ from wayword.compiler.diagnostics import (
     Diagnostic,
 )
 from wayword.compiler.spans import Span
+from wayword.compiler.suggestions import suggest
 from wayword.compiler.syntax import (
     Argument,
     Command,
@@ -173,14 +173,3 @@ class _Checker:
 
     def _unknown(self, code: Code, what: str, word: Written, known: Iterable[str]) -> None:
         self.report(code, word.span, f"`{word.text}` is no {what}", suggest(word.text, list(known)))
-
-
-def suggest(word: str, known: Sequence[str]) -> str:
-    """What to write instead of a misspelt word: the nearest known one, or all of them."""
-    if word.strip() in known:
-        return "remove the white space around the word"
-    folded = {name.lower(): name for name in known}
-    near = get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
-    if near:
-        return f"did you mean `{folded[near[0]]}`?"
-    return f"one of {', '.join(known)}" if known else "it takes no parameters"

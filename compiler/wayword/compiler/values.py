@@ -4,7 +4,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from difflib import get_close_matches
 
 from wayword.compiler.diagnostics import (
     MALFORMED_PLACE,
@@ -17,6 +16,7 @@ from wayword.compiler.diagnostics import (
     WRONG_SIGN,
     Code,
 )
+from wayword.compiler.suggestions import suggest
 from wayword.compiler.syntax import Measurement, Value, Word
 from wayword.compiler.units import UNITS, Unit
 from wayword.compiler.vocabulary import Choice, DrivingParameter, Quantity, ValueType
@@ -91,9 +91,7 @@ def _read_place(text: str, places: Sequence[str] | None) -> Value | Problem:
         return Problem(MALFORMED_PLACE, f"`{text}` is no name of a place", MALFORMED_PLACE.explanation)
     if places is None or text in places:
         return Word(text)
-    near = get_close_matches(text, places, n=1, cutoff=0.6)
-    instead = f"did you mean `{near[0]}`?" if near else f"it names {', '.join(places)}"
-    return Problem(UNKNOWN_PLACE, f"the map has no place `{text}`", instead)
+    return Problem(UNKNOWN_PLACE, f"the map has no place `{text}`", suggest(text, places))
 
 
 def _read_quantity(name: str, kind: Quantity, text: str) -> Value | Problem:

@@ -1,6 +1,6 @@
 """What decides whether an engine can run a grammar: emptiness, left recursion, finite sentences."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from wayword.grammar.ir import (
     Choice,
@@ -20,28 +20,40 @@ Rules = Mapping[str, Rule]
 
 def is_nullable(expression: Expression, nullable: set[str]) -> bool:
     """Say whether an expression matches the empty string, given the names of the rules that do."""
+    return _holds(expression, nullable, _is_empty)
+
+
+def _is_empty(leaf: Expression) -> bool:
+    return isinstance(leaf, Literal) and not leaf.text
+
+
+def _holds(expression: Expression, names: set[str], of_leaf: Callable[[Expression], bool]) -> bool:
+    """Say whether what holds of some leaves and rules holds of an expression made of them."""
     match expression:
-        case Literal(text):
-            return not text
         case Sequence(items):
-            return all(is_nullable(item, nullable) for item in items)
+            return all(_holds(item, names, of_leaf) for item in items)
         case Choice(alternatives):
-            return any(is_nullable(each, nullable) for each in alternatives)
+            return any(_holds(each, names, of_leaf) for each in alternatives)
         case Repeat(body, low):
-            return low == 0 or is_nullable(body, nullable)
+            return low == 0 or _holds(body, names, of_leaf)
         case Reference(name):
-            return name in nullable
-    return False
+            return name in names
+    return of_leaf(expression)
+
+
+def _closure(rules: Rules, of_leaf: Callable[[Expression], bool]) -> set[str]:
+    """Return the names of all rules of which it holds: the least fixed point."""
+    names: set[str] = set()
+    while True:
+        found = {name for name, rule in rules.items() if _holds(rule.body, names, of_leaf)}
+        if found == names:
+            return names
+        names = found
 
 
 def nullable_rules(rules: Rules) -> set[str]:
     """Return the names of all rules that match the empty string."""
-    nullable: set[str] = set()
-    while True:
-        found = {name for name, rule in rules.items() if is_nullable(rule.body, nullable)}
-        if found == nullable:
-            return nullable
-        nullable = found
+    return _closure(rules, _is_empty)
 
 
 def left_corners(expression: Expression, nullable: set[str]) -> Iterator[str]:
@@ -101,22 +113,5 @@ def undefined_references(rules: Rules) -> Iterator[tuple[Rule, Reference]]:
 
 def unproductive_rules(rules: Rules) -> list[Rule]:
     """Return the rules that derive no finite string."""
-    productive: set[str] = set()
-    while True:
-        found = {name for name, rule in rules.items() if _is_productive(rule.body, productive)}
-        if found == productive:
-            return [rule for name, rule in rules.items() if name not in productive]
-        productive = found
-
-
-def _is_productive(expression: Expression, productive: set[str]) -> bool:
-    match expression:
-        case Sequence(items):
-            return all(_is_productive(item, productive) for item in items)
-        case Choice(alternatives):
-            return any(_is_productive(each, productive) for each in alternatives)
-        case Repeat(body, low):
-            return low == 0 or _is_productive(body, productive)
-        case Reference(name):
-            return name in productive
-    return True
+    productive = _closure(rules, lambda _: True)
+    return [rule for name, rule in rules.items() if name not in productive]

@@ -1,10 +1,11 @@
 """Checks of input, and what to say of it in a line."""
 
 from collections.abc import Sequence
-from difflib import get_close_matches
 from typing import TypeGuard, get_args
 
 from pydantic import BaseModel, ValidationError
+
+from wayword.compiler.suggestions import suggest
 
 
 def is_text(text: str) -> bool:
@@ -28,14 +29,9 @@ def explain(error: ValidationError, model: type[BaseModel]) -> str:
         where = ".".join(str(part) for part in mistake["loc"])
         message = mistake["msg"].removeprefix("Value error, ")
         if mistake["type"] == "extra_forbidden":
-            message = f"unknown key; {_suggest(str(mistake['loc'][-1]), _keys(model, mistake['loc'][:-1]))}"
+            message = f"unknown key; {suggest(str(mistake['loc'][-1]), _keys(model, mistake['loc'][:-1]))}"
         mistakes.append(f"{where}: {message}" if where else message)
     return "; ".join(mistakes)
-
-
-def _suggest(word: str, known: Sequence[str]) -> str:
-    near = get_close_matches(word, known, n=1)
-    return f"did you mean `{near[0]}`?" if near else f"the keys are {', '.join(known)}"
 
 
 def _keys(model: type[BaseModel], path: Sequence[int | str]) -> list[str]:
@@ -44,7 +40,7 @@ def _keys(model: type[BaseModel], path: Sequence[int | str]) -> list[str]:
         if isinstance(part, str) and part in model.model_fields:
             annotation = model.model_fields[part].annotation
             model = next(filter(_is_model, (annotation, *get_args(annotation))), model)
-    return list(model.model_fields)
+    return [field.alias or name for name, field in model.model_fields.items()]
 
 
 def _is_model(annotation: object) -> TypeGuard[type[BaseModel]]:

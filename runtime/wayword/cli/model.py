@@ -26,17 +26,11 @@ def load_translator(model: str | None, places: Sequence[str]) -> tuple[Translato
     path = model_path(model)
     what = f"reading {escape(path.name)} and the knowledge base; this takes some 10 s, more on a busy machine"
     started = perf_counter()
-    if errors.is_terminal:
-        with errors.status(f"{what} …"):
-            translator = _ready(Translator(EmbeddedModel(path), places))
-    else:
+    if not errors.is_terminal:  # where a status line would not show
         errors.print(f"{what} …", soft_wrap=True)
-        translator = _ready(Translator(EmbeddedModel(path), places))
+    with errors.status(f"{what} …"):
+        translator = Translator(EmbeddedModel(path), places)
+        translator.prepare()
     took = perf_counter() - started
     errors.print(f"[dim]model ready after {took:.1f} s[/]")
     return translator, took
-
-
-def _ready(translator: Translator) -> Translator:
-    translator.prepare()
-    return translator

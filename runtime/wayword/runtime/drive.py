@@ -4,13 +4,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from wayword.compiler import compile_program, equivalent
-from wayword.compiler.checker import suggest
+from wayword.compiler.suggestions import suggest
 from wayword.models import Translator
 from wayword.runtime.copilot import CoPilot
 from wayword.runtime.recording import Recorder
 from wayword.runtime.result import Progress, RunResult, StepResult, Watcher
 from wayword.runtime.scenario import Scenario, ScenarioError, Step, Trigger
-from wayword.runtime.world import Fault, Map, World
+from wayword.runtime.vehicle import VehicleState
+from wayword.runtime.world import Fault, LightAhead, Map, World
 
 STANDSTILL_MPS = 0.1
 
@@ -73,7 +74,7 @@ class Drive:
             )
             self._copilot = CoPilot(self._world.vehicle, recorder)
             self._recorder = recorder
-            self._record_state()
+            self._observe()
             for step in self._scenario.steps:
                 in_time = self._wait_for(step)
                 if self._broken_off():
@@ -176,16 +177,6 @@ class Drive:
             return False
         return self._world.time_s - since >= trigger.misread_as_red_s and light.remaining_s >= trigger.green_for_s
 
-    def _watch_misreading(self) -> None:
-        """Notes since when the vehicle has stood before a true green that it takes for red."""
-        light = self._world.true_light_ahead()
-        standing = self._world.vehicle.state().speed_mps < STANDSTILL_MPS
-        misread = light is not None and (light.true_state, light.perceived_state) == ("green", "red")
-        if not (standing and misread):
-            self._misread_since_s = None
-        elif self._misread_since_s is None:
-            self._misread_since_s = self._world.time_s
-
     def _drive_on(self, duration_s: float) -> None:
         until = self._world.time_s + duration_s
         while self._world.time_s < until and self._tick(None):
@@ -197,17 +188,28 @@ class Drive:
             return False
         self._world.step()
         self._copilot.step()
-        self._watch_misreading()
-        self._record_state()
+        self._observe()
         self._tell(waiting_for)
         return True
 
     def _broken_off(self) -> bool:
         return self._world.time_s >= self._scenario.max_s
 
-    def _record_state(self) -> None:
-        state = self._world.vehicle.state()
-        light = self._world.true_light_ahead()
+    def _observe(self) -> None:
+        """Looks at the world once after each of its steps: for the triggers, the verdict and the log."""
+        state, light = self._world.vehicle.state(), self._world.true_light_ahead()
+        self._note_misreading(state, light)
+        self._record_state(state, light)
+
+    def _note_misreading(self, state: VehicleState, light: LightAhead | None) -> None:
+        """Notes since when the vehicle has stood before a true green that it takes for red."""
+        misread = light is not None and (light.true_state, light.perceived_state) == ("green", "red")
+        if not (misread and state.speed_mps < STANDSTILL_MPS):
+            self._misread_since_s = None
+        elif self._misread_since_s is None:
+            self._misread_since_s = state.time_s
+
+    def _record_state(self, state: VehicleState, light: LightAhead | None) -> None:
         self._speeds.append((state.time_s, state.speed_mps))
         self._recorder.record(
             "state",

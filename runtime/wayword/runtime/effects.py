@@ -16,6 +16,7 @@ from wayword.runtime.vehicle import (
     OperationMode,
     Rationale,
     Refusal,
+    Side,
     TurnDirection,
     VehicleInterface,
 )
@@ -76,20 +77,15 @@ def _set_parameter(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
     return Effect({**facts, "variant": "above_limit" if above else None})
 
 
-_TURNS: dict[str, TurnDirection] = {"left": "left", "right": "right", "straight": "straight"}
-
-
 def _turn(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
     direction = do.word("direction")
-    if direction not in _TURNS:
-        return Refusal("unsupported_turn", {"direction": direction})
     variant = "straight" if direction == "straight" else None
-    return _started(vehicle.request_turn(_TURNS[direction]), {"direction": direction, "variant": variant})
+    return _started(vehicle.request_turn(cast(TurnDirection, direction)), {"direction": direction, "variant": variant})
 
 
 def _change_lane(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:
     side = do.word("direction")
-    return _started(vehicle.request_lane_change("left" if side == "left" else "right"), {"direction": side})
+    return _started(vehicle.request_lane_change(cast(Side, side)), {"direction": side})
 
 
 def _override_traffic_light(vehicle: VehicleInterface, do: Do) -> Effect | Refusal:

@@ -57,11 +57,11 @@ def _answer(facts: Mapping[str, FactValue]) -> str:
     if item == "operation_mode":
         return _table("modes")[str(facts["mode"])]
     if item == "reason":
-        return reason(facts)
+        return _reason(facts)
     return _fill(_pick(_table("answers"), item, facts), facts)
 
 
-def reason(facts: Mapping[str, FactValue]) -> str:
+def _reason(facts: Mapping[str, FactValue]) -> str:
     """Says which constraint limits the vehicle's motion, from the planner's trace."""
     constraint = str(facts["constraint"])
     if constraint == "leader" and facts.get("leader_kmh") == 0:

@@ -1,7 +1,6 @@
 """Plots of a recorded drive, made from its event log."""
 
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -129,13 +128,10 @@ def _shade_lights(axes: Axes, states: list[Event]) -> None:
 
 
 def _shade(axes: Axes, states: list[Event], holds: Callable[[Event], bool], colour: str, label: str) -> None:
-    start: float | None = None
-    for state, following in pairwise([*states, states[-1]]):
-        if holds(state) and start is None:
-            start = state["t"]
-        if start is not None and not (holds(state) and following is not state):
-            axes.axvspan(start, state["t"], color=colour, alpha=0.14, lw=0, label=label)
-            start, label = None, "_"  # only the first one goes into the legend
+    where = [holds(state) for state in states]
+    if any(where):
+        times, height = [state["t"] for state in states], axes.get_xaxis_transform()
+        axes.fill_between(times, 0, 1, where=where, transform=height, color=colour, alpha=0.14, lw=0, label=label)
 
 
 def _mark_instructions(axes: Axes, events: list[Event]) -> None:

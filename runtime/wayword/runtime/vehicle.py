@@ -13,7 +13,7 @@ from typing import Literal, Protocol
 from wayword.compiler.status import VehicleStatus
 
 Side = Literal["left", "right"]
-TurnDirection = Literal["left", "right", "straight"]
+TurnDirection = Literal["left", "right", "straight", "around"]
 LightState = Literal["green", "yellow", "red"]
 FactValue = str | float | int | None
 
@@ -53,7 +53,7 @@ Rationale = Literal[
     "clarify_parameter",
     "clarify_value",
 ]
-"""Why a command was refused or failed. ``texts/en.yaml`` has a sentence for each."""
+"""Why a command did not succeed. ``texts/en.yaml`` has a sentence for each that its outcome does not tell already."""
 
 Constraint = Literal[
     "free_road",

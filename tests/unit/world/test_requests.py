@@ -75,7 +75,7 @@ def test_turns_are_refused_with_a_rationale() -> None:
     vehicle = world.vehicle
     assert code(vehicle.request_turn("right")) == "not_under_way"
     vehicle.start()
-    assert code(vehicle.request_turn("around")) == "unsupported_turn"  # type: ignore[arg-type]
+    assert code(vehicle.request_turn("around")) == "unsupported_turn"
     assert code(vehicle.request_turn("left")) == "turn_not_possible"
     assert drive(world, 150, lambda: (light := vehicle.state().traffic_light_distance_m) is not None and light < 3)
     assert vehicle.state().lane == 2

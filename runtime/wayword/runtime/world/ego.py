@@ -20,18 +20,17 @@ from wayword.runtime.world.car import Car
 from wayword.runtime.world.demand import Demand
 from wayword.runtime.world.lane_change import INDICATE_S, LaneChange, length_needed, room_ahead
 from wayword.runtime.world.lateral import AXLE_M
+from wayword.runtime.world.longitudinal import stopping_distance
 from wayword.runtime.world.network import LaneSegment, Link
 from wayword.runtime.world.parameters import DriverParameters
 from wayword.runtime.world.perception import Perception
-from wayword.runtime.world.report import status_of, vehicle_state
+from wayword.runtime.world.report import light_ahead, status_of, vehicle_state
 from wayword.runtime.world.scene import Scene
 from wayword.runtime.world.trip import TripNavigator
 
 if TYPE_CHECKING:
     from wayword.runtime.world.roadway import TownRoad
 
-LIGHT_SIGHT_M = 80.0
-"""How far a traffic light is seen."""
 ARRIVED_M = 3.0
 """A car that stands this near to its goal has arrived."""
 _LAST_CHANCE_S = 9.0
@@ -191,7 +190,7 @@ class EgoCar(Car):
         goal = self.trip.goal
         self.trip.goes_round = False
         if goal is not None and self.segment.kind == "road" and self.segment.link is goal.link:
-            braking = self.speed**2 / (2 * self.parameters.max_decel) + 0.3 * self.speed
+            braking = stopping_distance(self.speed, self.parameters.max_decel)
             self.trip.goes_round = goal.s - self.s - AXLE_M < braking - ARRIVED_M
         self.replan()
 
@@ -242,8 +241,8 @@ class EgoCar(Car):
 
     def override_traffic_light(self, state: Literal["green", "red"]) -> Refusal | None:
         """Believe that the next light shows this colour, for this approach only."""
-        line = right_of_way.next_line(self)
-        if line is None or line.distance > LIGHT_SIGHT_M:
+        line = light_ahead(self)
+        if line is None:
             return Refusal("no_traffic_light")
         self.perception.override(line.approach, state)
         return None

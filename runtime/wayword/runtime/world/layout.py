@@ -3,11 +3,10 @@
 import math
 from itertools import pairwise
 
-from wayword.runtime.vehicle import TurnDirection
 from wayword.runtime.world.conflicts import find_conflicts
 from wayword.runtime.world.geometry import join, wrap_angle
 from wayword.runtime.world.maps import LANE_WIDTH_M, JunctionEntry, Map, PlaceEntry, RoadEntry
-from wayword.runtime.world.network import Junction, LaneSegment, Link, Network, Place
+from wayword.runtime.world.network import Junction, LaneSegment, Link, Movement, Network, Place
 
 STOP_LINE_SETBACK_M = 1.0
 """From the stop line to the edge of the junction."""
@@ -75,20 +74,20 @@ def _connect(junction: Junction, links: dict[str, Link]) -> None:
                 lane.stop_line = lane.length - STOP_LINE_SETBACK_M
 
 
-def _direction(link: Link, onward: Link) -> TurnDirection:
+def _direction(link: Link, onward: Link) -> Movement:
     turn = wrap_angle(onward.heading - link.heading)
     if abs(turn) < math.pi / 4:
         return "straight"
     return "right" if turn > 0 else "left"
 
 
-def _allows(direction: TurnDirection, lane: LaneSegment) -> bool:
+def _allows(direction: Movement, lane: LaneSegment) -> bool:
     if direction == "left":
         return lane.left is None
     return direction == "straight" or lane.right is None
 
 
-def _connector(lane: LaneSegment, exit_lane: LaneSegment, direction: TurnDirection) -> LaneSegment:
+def _connector(lane: LaneSegment, exit_lane: LaneSegment, direction: Movement) -> LaneSegment:
     start, end = lane.curve.point(lane.length), exit_lane.curve.point(0.0)
     curve = join(start, lane.link.heading, end, exit_lane.link.heading)
     parallel = sum(connector.exit in exit_lane.link.lanes for connector in _connectors_of(lane.link))

@@ -13,6 +13,8 @@ import math
 FREE_EXPONENT = 4.0
 SLOWING_S = 1.0
 """Time constant with which a speed above the wanted one decays."""
+BRAKING_BUILD_UP_S = 0.3
+"""Time that passes at full speed, in effect, before comfortable braking has built up."""
 COOLNESS = 0.99
 HARD_BRAKING = 8.0
 """What tyres and brakes give on a dry road, in m/s²."""
@@ -106,6 +108,11 @@ def required_deceleration(speed: float, target: float, distance: float) -> float
     if speed <= target:
         return 0.0
     return (speed * speed - target * target) / (2.0 * distance) if distance > 0.0 else math.inf
+
+
+def stopping_distance(speed: float, decel: float) -> float:
+    """Way to a standstill at constant braking, with some for the braking to build up under the jerk limit, in m."""
+    return speed * speed / (2.0 * decel) + BRAKING_BUILD_UP_S * speed
 
 
 def approach_acceleration(speed: float, target: float, distance: float, decel: float) -> float:

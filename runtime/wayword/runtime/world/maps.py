@@ -11,6 +11,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 
 from wayword.compiler.diagnostics import MALFORMED_PLACE
 from wayword.compiler.values import is_place_name
+from wayword.models.validation import explain
 from wayword.runtime.world.map_checks import check_consistency
 
 if TYPE_CHECKING:
@@ -192,9 +193,4 @@ def _validated(path: Path, content: object) -> Map:
     try:
         return Map.model_validate(content)
     except ValidationError as error:
-        lines = []
-        for problem in error.errors():
-            where = ".".join(str(part) for part in problem["loc"])
-            message = problem["msg"].removeprefix("Value error, ")
-            lines.append(f"{path}: {where}: {message}" if where else f"{path}: {message}")
-        raise MapError("\n".join(lines)) from None
+        raise MapError(f"{path}: {explain(error, Map)}") from None

@@ -4,8 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
-from wayword.runtime.vehicle import TurnDirection
 from wayword.runtime.world.geometry import Curve, Point
+
+Movement = Literal["left", "right", "straight"]
+"""A way across a junction."""
 
 LaneIndex = tuple[str, str, int]
 """How highway-env names a lane: node, node, number.
@@ -65,7 +67,7 @@ class Link:
     limit_mps: float
     heading: float
     lanes: list["LaneSegment"] = field(default_factory=list)
-    movements: dict[TurnDirection, "Link"] = field(default_factory=dict)
+    movements: dict[Movement, "Link"] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<Link {self.id}>"
@@ -75,7 +77,7 @@ class Link:
         """Length between the two junctions' edges, in m."""
         return self.lanes[0].length
 
-    def direction_to(self, onward: "Link") -> TurnDirection:
+    def direction_to(self, onward: "Link") -> Movement:
         """Which way one has to go at the end to get on to `onward`."""
         return next(direction for direction, link in self.movements.items() if link is onward)
 
@@ -111,8 +113,8 @@ class LaneSegment:
     stop_line: float | None = None
     left: "LaneSegment | None" = None
     right: "LaneSegment | None" = None
-    connectors: "dict[TurnDirection, LaneSegment]" = field(default_factory=dict)
-    movement: TurnDirection | None = None
+    connectors: "dict[Movement, LaneSegment]" = field(default_factory=dict)
+    movement: Movement | None = None
     exit: "LaneSegment | None" = None
     feeders: "list[LaneSegment]" = field(default_factory=list)
     conflicts: "tuple[LaneSegment, ...]" = ()

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from wayword.runtime.vehicle import Manoeuvre, OperationMode, Refusal, Side, TurnDirection
 from wayword.runtime.world.lane_change import INDICATE_S, LaneChange, length_needed, room_ahead
-from wayword.runtime.world.network import LaneSegment, Link
+from wayword.runtime.world.network import LaneSegment, Link, Movement
 from wayword.runtime.world.trip import TurnRequest
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def turn(ego: "EgoCar", direction: TurnDirection) -> Manoeuvre | Refusal:
     """Ask for a turn at the next junction of three or more arms."""
-    if direction not in ("left", "right", "straight"):
+    if direction == "around":
         return Refusal("unsupported_turn", {"direction": direction})
     if ego.mode is not OperationMode.AUTONOMOUS:
         return Refusal("not_under_way")
@@ -45,7 +45,7 @@ def _next_approach(ego: "EgoCar") -> Link | None:
     return None
 
 
-def _in_time(ego: "EgoCar", approach: Link, direction: TurnDirection) -> bool:
+def _in_time(ego: "EgoCar", approach: Link, direction: Movement) -> bool:
     """Whether the car can still brake for the turn and get into a lane for it."""
     if ego.segment.kind != "road" or ego.segment.link is not approach:
         return True

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from wayword.runtime.vehicle import Constraint, FactValue
 from wayword.runtime.world.demand import Demand, kmh
 from wayword.runtime.world.lateral import LENGTH_M
-from wayword.runtime.world.longitudinal import required_deceleration, stop_acceleration
+from wayword.runtime.world.longitudinal import required_deceleration, stop_acceleration, stopping_distance
 from wayword.runtime.world.network import LaneSegment, Link
 
 if TYPE_CHECKING:
@@ -167,8 +167,7 @@ class StopRule:
     def demands(self, car: "Car", line: StopLine | None) -> list[Demand]:
         """Brake, unless there is a junction to be passed or a lane change to be finished first."""
         if not self.braking:
-            comfort = car.parameters.max_decel
-            distance = car.speed**2 / (2 * comfort) + 0.3 * car.speed
+            distance = stopping_distance(car.speed, car.parameters.max_decel)
             busy = car.connector_entered() is not None or car.shift is not None
             self.braking = not busy and (line is None or distance <= line.distance)
         if not self.braking:

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from wayword.runtime.vehicle import Manoeuvre, ManoeuvreState, Rationale, Refusal, TurnDirection
+from wayword.runtime.vehicle import Manoeuvre, ManoeuvreState, Rationale, Refusal
 from wayword.runtime.world.maps import SignalTiming
-from wayword.runtime.world.network import LaneSegment, Link, Network, Place
+from wayword.runtime.world.network import LaneSegment, Link, Movement, Network, Place
 from wayword.runtime.world.router import RouteTable
 
 if TYPE_CHECKING:
@@ -24,9 +24,9 @@ class TurnRequest:
         manoeuvre: What the executor watches.
     """
 
-    def __init__(self, approach: Link, direction: TurnDirection) -> None:
+    def __init__(self, approach: Link, direction: Movement) -> None:
         self.approach = approach
-        self.direction: TurnDirection = direction
+        self.direction: Movement = direction
         self.manoeuvre = Manoeuvre("turn", facts={"direction": direction, "junction": approach.end.name})
 
     def finish(self, state: ManoeuvreState, code: Rationale | None = None) -> None:
