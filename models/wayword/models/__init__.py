@@ -2,7 +2,8 @@
 
 from wayword.models.backend import Completion, InstructionError, LanguageModel, Message
 from wayword.models.dataset import DatasetError, Record, read_records
-from wayword.models.registry import DEFAULT_MODEL, ModelError, model_path
+from wayword.models.errors import ModelError
+from wayword.models.registry import DEFAULT_MODEL, model_path
 from wayword.models.translator import Translation, Translator
 
 __all__ = [

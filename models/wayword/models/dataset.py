@@ -44,13 +44,26 @@ def read_records(path: Path) -> Iterator[Record]:
         DatasetError: The file or one of its lines can't be read.
     """
     try:
-        lines = path.read_text(encoding="utf-8").split("\n")
+        text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise DatasetError(f"{path}: {error}") from error
-    for number, line in enumerate(lines, start=1):
+    yield from parse_records(text, str(path))
+
+
+def parse_records(text: str, name: str) -> Iterator[Record]:
+    """Reads the lines of a data file.
+
+    Args:
+        text: Its content.
+        name: What messages call it.
+
+    Raises:
+        DatasetError: One of the lines is no record.
+    """
+    for number, line in enumerate(text.split("\n"), start=1):
         if not line.strip():
             continue
         try:
             yield Record.model_validate_json(line)
         except ValidationError as error:
-            raise DatasetError(f"{path}:{number}: {explain(error, Record)}") from error
+            raise DatasetError(f"{name}:{number}: {explain(error, Record)}") from error

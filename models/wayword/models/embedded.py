@@ -2,19 +2,21 @@
 
 import os
 from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
 from functools import lru_cache
+from os.path import commonprefix
 from pathlib import Path
-from typing import cast
 
 import numpy as np
 from llama_cpp import Llama, llama_get_logits_ith
-from llama_cpp.llama_chat_format import Jinja2ChatFormatter
 from llama_cpp.llama_grammar import LlamaGrammar
-from llama_cpp.llama_types import ChatCompletionRequestMessage
+from numpy.typing import NDArray
 
 from wayword.grammar import check_gbnf
 from wayword.models.backend import Completion, InstructionError, Message
-from wayword.models.registry import ModelError
+from wayword.models.chat import ChatTokenizer
+from wayword.models.constraint import TokenConstraint
+from wayword.models.errors import ModelError
 
 CONTEXT_TOKENS = 4096
 
@@ -42,8 +44,7 @@ class EmbeddedModel:
             )
         except ValueError as error:
             raise ModelError(f"{path} can't be loaded, it may be incomplete or of an unknown kind: {error}") from error
-        self._open_ended = self._formatter(ends_with_answer=False)
-        self._answering = self._formatter(ends_with_answer=True)
+        self.tokenizer = ChatTokenizer(self._llama)
 
     @property
     def name(self) -> str:
@@ -52,8 +53,7 @@ class EmbeddedModel:
 
     def prepare(self, messages: Sequence[Message]) -> None:
         """Reads the constant beginning of prompts into the key-value cache."""
-        tokens = self._tokens(messages, self._open_ended)
-        next(self._llama.generate(tokens, temp=0.0))
+        self._read(self.tokenizer.conversation(messages, answering=False))
 
     def complete(
         self,
@@ -70,7 +70,7 @@ class EmbeddedModel:
             GrammarError: The grammar is not one that llama.cpp can take; it is checked before llama.cpp sees it.
             InstructionError: The prompt leaves no room for `max_tokens` in the context.
         """
-        prompt = self._tokens(messages, self._answering)
+        prompt = self.tokenizer.conversation(messages)
         if len(prompt) + max_tokens > CONTEXT_TOKENS:
             raise InstructionError(
                 f"the prompt has {len(prompt)} tokens, with {max_tokens} for the answer that is more than the "
@@ -97,50 +97,42 @@ class EmbeddedModel:
         )
 
     def _stream(self, prompt: list[int], gbnf: str | None, temperature: float) -> Iterator[int]:
-        grammar = _grammar(gbnf) if gbnf is not None else None
         if temperature == 0.0:
-            yield from self._llama.generate(prompt, temp=0.0, grammar=grammar)
+            yield from self._greedy(prompt, gbnf)
         else:  # sample from the whole distribution: no top-k, top-p or min-p cut
+            grammar = _grammar(gbnf) if gbnf is not None else None
             yield from self._llama.generate(prompt, temp=temperature, top_k=0, top_p=1.0, min_p=0.0, grammar=grammar)
 
-    def _formatter(self, *, ends_with_answer: bool) -> Jinja2ChatFormatter:
-        """Writes conversations as the model was trained on them, up to the answer's opening if wanted."""
-        return Jinja2ChatFormatter(
-            template=self._llama.metadata.get("tokenizer.chat_template", _CHATML),
-            eos_token=self._token_text(self._llama.token_eos()),
-            bos_token=self._token_text(self._llama.token_bos()),
-            add_generation_prompt=ends_with_answer,
-        )
+    def _greedy(self, prompt: list[int], gbnf: str | None) -> Iterator[int]:
+        """The most probable token each time, among those that the grammar allows."""
+        self._read(prompt)
+        with TokenConstraint(self._llama, gbnf) if gbnf is not None else nullcontext() as constraint:
+            while True:
+                logits = self._logits()
+                token = int(logits.argmax()) if constraint is None else constraint.best(logits)
+                yield token
+                if constraint is not None:
+                    constraint.accept(token)
+                self._llama.eval([token])
 
-    def _tokens(self, messages: Sequence[Message], formatter: Jinja2ChatFormatter) -> list[int]:
-        """The tokens of a conversation.
+    def _read(self, prompt: list[int]) -> None:
+        """Evaluates a prompt, but for what it has in common with what was evaluated last."""
+        before = self._llama.input_ids[: self._llama.n_tokens].tolist()
+        # The last token is evaluated in any case: the logits after it are wanted.
+        kept = min(len(commonprefix([before, prompt])), len(prompt) - 1)
+        self._llama.n_tokens = kept
+        self._llama.eval(prompt[kept:])
 
-        Only the template may open and close turns: what somebody said is no template, even if it spells out control
-        tokens. So the template is filled with marks, and the parts are tokenised apart.
-        """
-        marks = [f"\ue000{number}\ue001" for number in range(len(messages))]
-        turns = [
-            cast(ChatCompletionRequestMessage, {"role": message.role, "content": mark})
-            for message, mark in zip(messages, marks, strict=True)
-        ]
-        rest = formatter(messages=turns).prompt
-        tokens: list[int] = []
-        for message, mark in zip(messages, marks, strict=True):
-            before, rest = rest.split(mark, 1)
-            tokens += self._llama.tokenize(before.encode(), add_bos=False, special=True)
-            tokens += self._llama.tokenize(message.content.encode(), add_bos=False, special=False)
-        return tokens + self._llama.tokenize(rest.encode(), add_bos=False, special=True)
-
-    def _token_text(self, token: int) -> str:
-        return self._llama.detokenize([token], special=True).decode("utf-8", errors="replace") if token >= 0 else ""
+    def _logits(self) -> NDArray[np.single]:
+        """The logits after the last token, shape (vocabulary,); valid until the next evaluation."""
+        return np.ctypeslib.as_array(llama_get_logits_ith(self._llama.ctx, -1), shape=(self._llama.n_vocab(),))
 
     def _is_end(self, token: int) -> bool:
         return token in (self._llama.token_eos(), self._llama.token_bos()) or token < 0
 
     def _log_probability(self, token: int) -> float:
         """Natural-log probability of the token that was just sampled, from the logits that it was sampled from."""
-        pointer = llama_get_logits_ith(self._llama.ctx, -1)
-        logits = np.ctypeslib.as_array(pointer, shape=(self._llama.n_vocab(),)).astype(np.float64)
+        logits = self._logits().astype(np.float64)
         peak = logits.max()
         return float(logits[token] - peak - np.log(np.exp(logits - peak).sum()))
 
@@ -149,10 +141,3 @@ class EmbeddedModel:
 def _grammar(gbnf: str) -> LlamaGrammar:
     check_gbnf(gbnf)
     return LlamaGrammar.from_string(gbnf, verbose=False)
-
-
-# For weights that bring no template of their own.
-_CHATML = (
-    "{% for message in messages %}<|im_start|>{{ message['role'] }}\n{{ message['content'] }}<|im_end|>\n{% endfor %}"
-    "{% if add_generation_prompt %}<|im_start|>assistant\n{% endif %}"
-)

@@ -3,12 +3,10 @@
 from importlib.util import find_spec
 from pathlib import Path
 
+from wayword.models.errors import ModelError
+
 DEFAULT_MODEL = "smollm2-135m-instruct"
 _EMBEDDED_FILE = "SmolLM2-135M-Instruct.Q4_1.gguf"
-
-
-class ModelError(Exception):
-    """Weights that aren't there or can't be loaded. The message says what to do."""
 
 
 def model_path(model: str | None = None) -> Path:

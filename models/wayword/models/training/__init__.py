@@ -1,0 +1,1 @@
+"""Fine-tuning of the translation model: data, augmentation, LoRA on the CPU. Needs the extra ``train``."""
