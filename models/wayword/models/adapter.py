@@ -46,7 +46,7 @@ def merged_model(base: Path, adapter: Path) -> Path:
             pass
         try:
             _merge(base, adapter, Path(partial.name))
-            os.replace(partial.name, merged)  # whoever reads it sees all of it or nothing
+            Path(partial.name).replace(merged)  # whoever reads it sees all of it or nothing
         finally:
             Path(partial.name).unlink(missing_ok=True)
     except OSError as error:

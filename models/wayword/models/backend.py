@@ -25,14 +25,15 @@ class Completion:
         text: The answer.
         tokens: Number of tokens in it.
         forced_tokens: How many of these the constraint determined, so that the model wasn't evaluated for them.
-        mean_log_probability: Mean natural-log probability of its tokens under the model, without the constraint.
+        log_probability: Natural log of the probability that the model, unconstrained, gives to the whole answer, end
+            included.
         finished: Whether the model came to an end by itself rather than at the token limit.
     """
 
     text: str
     tokens: int
     forced_tokens: int
-    mean_log_probability: float
+    log_probability: float
     finished: bool
 
 

@@ -9,7 +9,8 @@ import numpy as np
 from llama_cpp import Llama
 from numpy.typing import NDArray
 
-from wayword.grammar import GrammarError, check_gbnf
+from wayword.grammar import check_gbnf
+from wayword.models.errors import ModelError
 
 
 class TokenConstraint:
@@ -21,6 +22,7 @@ class TokenConstraint:
 
     Raises:
         GrammarError: The grammar is not one that llama.cpp can take; it is checked before llama.cpp sees it.
+        ModelError: llama.cpp refuses it all the same.
     """
 
     def __init__(self, llama: Llama, gbnf: str) -> None:
@@ -28,7 +30,7 @@ class TokenConstraint:
         vocabulary = llama_cpp.llama_model_get_vocab(llama.model)
         self._sampler = llama_cpp.llama_sampler_init_grammar(vocabulary, gbnf.encode(), b"root")
         if not self._sampler:
-            raise GrammarError("llama.cpp can't read the grammar")
+            raise ModelError("llama.cpp can't take the grammar for this model's vocabulary")
         self._entries = np.zeros(
             llama.n_vocab(), dtype=np.dtype([("id", np.intc), ("logit", np.single), ("p", np.single)], align=True)
         )

@@ -4,7 +4,6 @@ import os
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from functools import lru_cache
-from os.path import commonprefix
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +16,7 @@ from wayword.models.backend import Completion, InstructionError, Message
 from wayword.models.chat import ChatTokenizer
 from wayword.models.constraint import TokenConstraint
 from wayword.models.errors import ModelError
+from wayword.models.prefix import common_prefix_length
 
 CONTEXT_TOKENS = 4096
 
@@ -92,7 +92,7 @@ class EmbeddedModel:
             text=self._llama.detokenize(answer, prev_tokens=prompt).decode("utf-8", errors="replace"),
             tokens=len(answer),
             forced_tokens=0,  # llama.cpp's own sampler evaluates the model for every token
-            mean_log_probability=float(np.mean(log_probabilities)),
+            log_probability=float(np.sum(log_probabilities)),
             finished=finished,
         )
 
@@ -119,7 +119,7 @@ class EmbeddedModel:
         """Evaluates a prompt, but for what it has in common with what was evaluated last."""
         before = self._llama.input_ids[: self._llama.n_tokens].tolist()
         # The last token is evaluated in any case: the logits after it are wanted.
-        kept = min(len(commonprefix([before, prompt])), len(prompt) - 1)
+        kept = min(common_prefix_length([before, prompt]), len(prompt) - 1)
         self._llama.n_tokens = kept
         self._llama.eval(prompt[kept:])
 

@@ -8,7 +8,7 @@ from time import perf_counter
 from wayword.compiler import VehicleStatus
 from wayword.grammar import constraint
 from wayword.models.backend import InstructionError, LanguageModel
-from wayword.models.prompt import constant_messages, prompt_messages
+from wayword.models.prompt import PromptStyle, constant_messages, prompt_messages
 from wayword.models.validation import is_text
 
 MAX_INSTRUCTION_CHARACTERS = 1000
@@ -23,7 +23,7 @@ class Translation:
         latency_ms: Wall-clock time that it took.
         tokens: Number of tokens in the program.
         forced_tokens: How many of these took no evaluation of the model.
-        confidence: Geometric mean of the tokens' probabilities under the unconstrained model, 0 to 1.
+        confidence: Probability that the unconstrained model gives to the whole program, 0 to 1.
         finished: Whether the program is complete rather than cut off at the token limit.
     """
 
@@ -41,16 +41,18 @@ class Translator:
     Args:
         model: The language model.
         places: Names on the loaded map; the constraint lets no other place through.
+        style: The prompt that the model needs.
     """
 
-    def __init__(self, model: LanguageModel, places: Sequence[str]) -> None:
+    def __init__(self, model: LanguageModel, places: Sequence[str], style: PromptStyle = PromptStyle.TUNED) -> None:
         self.model = model
         self.places = tuple(places)
+        self.style = style
         self._gbnf = constraint(self.places)
 
     def prepare(self) -> None:
         """Reads the constant part of the prompt ahead of the first instruction."""
-        self.model.prepare(constant_messages(self.places))
+        self.model.prepare(constant_messages(self.places, self.style))
 
     def translate(
         self,
@@ -81,7 +83,7 @@ class Translator:
             )
         started = perf_counter()
         completion = self.model.complete(
-            prompt_messages(instruction, status or VehicleStatus(), self.places),
+            prompt_messages(instruction, status or VehicleStatus(), self.places, self.style),
             gbnf=self._gbnf if constrained else None,
             temperature=temperature,
             seed=seed,
@@ -91,6 +93,6 @@ class Translator:
             latency_ms=(perf_counter() - started) * 1000,
             tokens=completion.tokens,
             forced_tokens=completion.forced_tokens,
-            confidence=exp(completion.mean_log_probability),
+            confidence=exp(completion.log_probability),
             finished=completion.finished,
         )

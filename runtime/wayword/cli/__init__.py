@@ -12,6 +12,8 @@ _COMMANDS = {
     "translate": LazyCommand("wayword.cli.translate", "translate", "Translate a passenger's words into a program."),
     "compile": LazyCommand("wayword.cli.compile", "compile_", "Compile a program to executor instructions."),
     "grammar": LazyCommand("wayword.cli.grammar", "grammar", "Print the grammar, as a constraint for a model."),
+    "eval": LazyCommand("wayword.cli.evaluate", "evaluate", "Measure how well instructions are translated."),
+    "train": LazyCommand("wayword.cli.train", "train", "Fine-tune the translation model."),
     "explain": LazyCommand("wayword.cli.explain", "explain", "Explain a diagnostic code."),
 }
 

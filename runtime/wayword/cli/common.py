@@ -93,12 +93,17 @@ def map_option(command: Callable[P, R]) -> Callable[P, R]:
     return option(command)
 
 
-def model_option(command: Callable[P, R]) -> Callable[P, R]:
-    """Adds ``--model``."""
-    option = click.option(
+def model_options(command: Callable[P, R]) -> Callable[P, R]:
+    """Adds ``--model`` and ``--adapter``."""
+    model = click.option(
         "--model", envvar="WAYWORD_MODEL", help="GGUF file of a language model (default: the embedded one)."
     )
-    return option(command)
+    adapter = click.option(
+        "--adapter",
+        envvar="WAYWORD_ADAPTER",
+        help="GGUF file of a LoRA adapter, or none (default: Wayword's own for the embedded model).",
+    )
+    return model(adapter(command))
 
 
 def friendly_errors(*expected: type[Exception]) -> Callable[[Callable[P, R]], Callable[P, R]]:

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from wayword.cli.common import FAILED, errors, fail, friendly_errors, json_option, model_option, print_json
+from wayword.cli.common import FAILED, errors, fail, friendly_errors, json_option, model_options, print_json
 from wayword.cli.model import load_translator
 from wayword.cli.trace import Trace, print_summary
 from wayword.models import ModelError, Translator
@@ -51,7 +51,7 @@ _SCENARIOS_OWN = "\0"  # --text without a value
     help="Drive wrong translations too. By default they are reported and the gold program is driven instead.",
 )
 @click.option("--out", type=click.Path(path_type=Path), default=Path("out"), show_default=True, help="Output folder.")
-@model_option
+@model_options
 @json_option
 @friendly_errors(ScenarioError, MapError, ModelError, LogError, OSError)
 def drive(
@@ -64,6 +64,7 @@ def drive(
     as_translated: bool,
     out: Path,
     model: str | None,
+    adapter: str | None,
     as_json: bool,
 ) -> None:
     """Drive a scenario with the language model in the loop, and judge the run.
@@ -98,7 +99,7 @@ def drive(
     if programs:
         results = _drive_gold(console, scenario, seeds, out, jobs or os.cpu_count() or 1)
     else:
-        translator, _ = load_translator(model, map_.place_names)
+        translator, _ = load_translator(model, adapter, map_.place_names)
         results = _drive_translated(console, scenario, seeds, out, translator, as_translated)
     finished = _with_plots(console, results)
     if as_json:

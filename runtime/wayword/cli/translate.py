@@ -13,12 +13,13 @@ from wayword.cli.common import (
     friendly_errors,
     json_option,
     map_option,
-    model_option,
+    model_options,
     print_json,
 )
 from wayword.cli.model import load_translator
 from wayword.compiler import VehicleStatus, compile_program, render_all
 from wayword.models import InstructionError, ModelError
+from wayword.models.confidence import asks_back
 from wayword.models.validation import explain
 from wayword.runtime.world import MapError, load_map
 
@@ -26,7 +27,7 @@ from wayword.runtime.world import MapError, load_map
 @click.command()
 @click.argument("text")
 @map_option
-@model_option
+@model_options
 @click.option(
     "--status",
     "status_json",
@@ -42,6 +43,7 @@ def translate(
     text: str,
     map_name: str,
     model: str | None,
+    adapter: str | None,
     status_json: str | None,
     no_constraint: bool,
     temperature: float,
@@ -51,7 +53,7 @@ def translate(
     """Translate TEXT, what a passenger says, into a program of the Wayword language, offline.
 
     The program goes to standard output, so that it can be piped into `wayword compile -`. Each call loads the model
-    anew, which takes some 10 seconds; the translation itself takes about one.
+    anew; the first one ever merges the adapter into the embedded model.
 
     \b
     Examples:
@@ -62,7 +64,7 @@ def translate(
     if not text.strip():
         fail("there is no instruction: TEXT is empty", as_json=as_json)
     status = _status(status_json, as_json)
-    translator, load_s = load_translator(model, load_map(map_name).place_names)
+    translator, load_s = load_translator(model, adapter, load_map(map_name).place_names)
     result = translator.translate(text, status, constrained=not no_constraint, temperature=temperature, seed=seed)
     compiled = compile_program(result.program, translator.places)
     if as_json:
@@ -73,6 +75,7 @@ def translate(
                 "tokens": result.tokens,
                 "forced_tokens": result.forced_tokens,
                 "confidence": round(result.confidence, 4),
+                "asks_back": asks_back(result),
                 "model": translator.model.name,
                 "constrained": not no_constraint,
                 "finished": result.finished,

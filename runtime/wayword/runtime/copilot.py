@@ -5,6 +5,7 @@ from time import perf_counter
 
 from wayword.compiler import Compilation, compile_program
 from wayword.models import Translation, Translator
+from wayword.models.confidence import asks_back, program_to_run
 from wayword.runtime.executor import Executor, ProgramRun
 from wayword.runtime.feedback import feedback, not_compiled, not_understood
 from wayword.runtime.recording import Recorder
@@ -21,6 +22,7 @@ class Exchange:
         time_s: Simulated time at which it was said.
         translation: What the model made of it; None for a program given directly.
         translation_error: Why the model made nothing of it.
+        program: The program to run: the translation, or where the model is too unsure of it, a question.
         compilation: What the compiler made of the program; None where there is no program.
         run: Its execution; None where it didn't compile.
         compile_ms: Wall-clock time of compiling.
@@ -33,6 +35,7 @@ class Exchange:
     time_s: float
     translation: Translation | None = None
     translation_error: str | None = None
+    program: str | None = None
     compilation: Compilation | None = None
     run: ProgramRun | None = None
     compile_ms: float = 0.0
@@ -62,7 +65,7 @@ class CoPilot:
     def translate(self, exchange: Exchange, translator: Translator) -> None:
         """First model stage: words to a program, under the vehicle's present status.
 
-        A failing model leaves the exchange without a translation; the vehicle drives on as before.
+        A failing model leaves the exchange without a program; the vehicle drives on as before.
         """
         status = self.vehicle.status()
         self._record("status", exchange, **status.model_dump(mode="json"))
@@ -72,10 +75,12 @@ class CoPilot:
             exchange.translation_error = str(error)
             self._record("translation_failed", exchange, error=str(error))
             return
+        exchange.program = program_to_run(exchange.translation)
         self._record(
             "translation",
             exchange,
             program=exchange.translation.program,
+            asks_back=asks_back(exchange.translation),
             latency_ms=round(exchange.translation.latency_ms, 1),
             tokens=exchange.translation.tokens,
             confidence=round(exchange.translation.confidence, 4),

@@ -117,12 +117,11 @@ class Drive:
         program = step.program
         if self._translator is not None:
             self._copilot.translate(exchange, self._translator)
-            translated = exchange.translation.program if exchange.translation else None
-            result.mistranslated = step.program is not None and not self._same(translated, step.program)
+            result.mistranslated = step.program is not None and not self._same(exchange.program, step.program)
             if result.mistranslated:
                 self._recorder.record("mistranslation", self._world.time_s, id=step.id, expected=step.program)
             if not result.mistranslated or self._as_translated:
-                program = translated
+                program = exchange.program
         self._tell(None)
         self._copilot.execute(exchange, program)
         self._tell(None)

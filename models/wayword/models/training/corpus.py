@@ -18,8 +18,8 @@ from wayword.models.training.encoding import Sample
 
 # Shares of an epoch beside the hand-written sentences themselves, relative to their number.
 _COMPOSED_SHARE = 0.05
-_REFERENCES_PER_TEMPLATE = 2
-_ASSISTANT_REQUESTS = 900  # of the CLINC-150 requests; all of them would drown the commands
+_REFERENCE_SHARE = 0.045
+_ASSISTANT_SHARE = 0.07  # all of the CLINC-150 requests would drown the commands
 _UNKNOWN_PLACE = "command_type: OUT_OF_SCOPE\naction: REJECT\nparameters:\n  - name: reason\n    value: unknown_place\n"
 
 
@@ -41,10 +41,13 @@ class Corpus:
 
     Args:
         town: Places of the default map, on which records without places of their own are spoken.
+        sentences: Take only so many of the sentences, chosen at random, and as small a part of everything else; None
+            takes all.
     """
 
-    def __init__(self, town: Sequence[str]) -> None:
+    def __init__(self, town: Sequence[str], sentences: int | None = None) -> None:
         self.town = tuple(town)
+        self._most = sentences
         self._folder = data_folder().joinpath("train")
 
     @cached_property
@@ -52,7 +55,10 @@ class Corpus:
         """Sentences with their programs, all files but the ones named below."""
         names = sorted(file.name for file in self._folder.iterdir() if file.name.endswith(".jsonl"))
         special = ("clinc150.jsonl", "references.jsonl")
-        return [record for name in names if name not in special for record in self._read(name)]
+        everything = [record for name in names if name not in special for record in self._read(name)]
+        if self._most is None or self._most >= len(everything):
+            return everything
+        return Random(0).sample(everything, self._most)
 
     @cached_property
     def assistant_requests(self) -> list[Record]:
@@ -80,9 +86,10 @@ class Corpus:
     def epoch(self, number: int, batch_size: int, default_scene_share: float, seed: int) -> Iterator[list[Sample]]:
         """The steps of one pass over the corpus, augmented anew; equal numbers and seeds give equal samples."""
         rng = Random(f"{seed}/{number}")
-        requests = rng.sample(self.assistant_requests, min(_ASSISTANT_REQUESTS, len(self.assistant_requests)))
-        records = [*self.sentences, *requests, *self._composed(rng)]
-        records += self.reference_templates * _REFERENCES_PER_TEMPLATE
+        sentences = len(self.sentences)
+        records = [*self.sentences, *self._composed(rng)]
+        records += rng.sample(self.assistant_requests, int(_ASSISTANT_SHARE * sentences))
+        records += rng.choices(self.reference_templates, k=int(_REFERENCE_SHARE * sentences))
         rng.shuffle(records)
         for start in range(0, len(records), batch_size):
             scene = self._scene(default_scene_share, rng)

@@ -3,11 +3,11 @@
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from os.path import commonprefix
 from random import Random
 
 from wayword.compiler import VehicleStatus
 from wayword.models.chat import ChatTokenizer
+from wayword.models.prefix import common_prefix_length
 from wayword.models.prompt import prompt_messages
 
 # Largest size of a batch, padding included: enough to keep the cores busy, little enough to waste no padding.
@@ -73,9 +73,8 @@ class Encoder:
         encoded = [self._encode(sample, rng) for sample in samples]
         # Whatever prefix the prompts have in common is the batch's, but for one token, so that even equal prompts
         # leave a position to predict the program's first token from.
-        shared = min(
-            len(commonprefix([tokens[:start] for tokens, start, _ in encoded])), *(s - 1 for _, s, _ in encoded)
-        )
+        common = common_prefix_length([tokens[:start] for tokens, start, _ in encoded])
+        shared = min(common, *(start - 1 for _, start, _ in encoded))
         sequences = [
             TokenSequence(tokens[shared:], [start - shared + index for index in counted])
             for tokens, start, counted in encoded

@@ -1,7 +1,6 @@
 """The training loop: checkpoints, resume, history."""
 
 import json
-import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from math import cos, pi
@@ -137,7 +136,7 @@ class Run:
             },
             partial,
         )
-        os.replace(partial, self._checkpoint)
+        partial.replace(self._checkpoint)
         lines = "".join(json.dumps(asdict(step)) + "\n" for step in self.history)
         (self.folder / "history.jsonl").write_text(lines, encoding="utf-8")
 
@@ -163,7 +162,8 @@ class Run:
             raise TrainingError(f"{self._checkpoint} can't be read ({error}); delete it to start anew") from error
         if (saved["recipe"], saved["steps"]) != (self.recipe.model_dump(), self.steps):
             raise TrainingError(
-                f"{self._checkpoint} belongs to a run with another recipe or other data; delete it or choose another --out"
+                f"{self._checkpoint} belongs to a run with another recipe or other data; "
+                "delete it or choose another folder with --out"
             )
         set_peft_model_state_dict(self.model, saved["adapter"])
         self._optimizer.load_state_dict(saved["optimizer"])

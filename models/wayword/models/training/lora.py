@@ -60,13 +60,13 @@ def loss_of(model: PeftModel, batch: Batch) -> torch.Tensor:
     return functional.cross_entropy(logits, wanted, reduction="sum")
 
 
-@torch.no_grad()
 def exact_matches(model: PeftModel, batch: Batch) -> int:
     """How many of the batch's programs the model would write unaided.
 
     A program is what greedy decoding yields exactly if each of its tokens is the most probable one after those
     before it, so that one evaluation is enough.
     """
-    logits, wanted, row_of = target_logits(model, batch)
+    with torch.no_grad():
+        logits, wanted, row_of = target_logits(model, batch)
     wrong = set(row_of[logits.argmax(dim=1) != wanted].tolist())
     return len(batch.sequences) - len(wrong)

@@ -5,12 +5,13 @@ from random import Random
 
 _JOINTS = (
     " and ", " and then ", ", then ", ", and ", ". ", ". Then ", ". And ", ", also ", " and also ", ". Oh, and ", ", ",
-    ", after that ", " then ", ". Afterwards ", ". Also, ", " plus ", ", oh and ", ". Another thing: ", " and afterwards ",
-    ". Next, ",
+    ", after that ", " then ", ". Afterwards ", ". Also, ", " plus ", ", oh and ",
+    ". Another thing: ", " and afterwards ", ". Next, ",
 )  # fmt: skip
 # What ends a program, what would change the meaning of the other part, and what needs a sentence of its own.
 _ALONE = re.compile(
-    r"action: (EMERGENCY_STOP|CLARIFY|STOP|START|PULL_OVER|PROCEED|\w+_WAYPOINT)|value: (unsafe|unknown_place|unrelated)"
+    r"action: (EMERGENCY_STOP|CLARIFY|STOP|START|PULL_OVER|PROCEED|\w+_WAYPOINT)"
+    r"|value: (unsafe|unknown_place|unrelated)"
 )
 _CONTINUES = re.compile(r"(?i)\b(and|then|also|again|it|that|this|first|no|not|wait|sorry|stop)\b|[?:;“”\"]")
 
@@ -40,9 +41,8 @@ def join(first: tuple[str, str], second: tuple[str, str], rng: Random) -> tuple[
     joint = rng.choice(_JOINTS)
     head = first[0].rstrip(" .!")
     tail = second[0]
-    if not joint.strip().startswith(".") or joint.strip() != ".":
-        tail = tail[0].lower() + tail[1:] if not tail.startswith("I") and not tail[1:2].isupper() else tail
-    return f"{head}{joint}{tail}", f"{first[1]}---\n{second[1]}"
+    starts_anew = joint == ". " or tail.startswith("I") or tail[1:2].isupper()
+    return f"{head}{joint}{tail if starts_anew else tail[0].lower() + tail[1:]}", f"{first[1]}---\n{second[1]}"
 
 
 def _key(program: str) -> tuple[str, ...]:

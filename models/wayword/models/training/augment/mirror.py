@@ -5,18 +5,22 @@ import re
 _SIDE = re.compile(r"\b(left|right)\b", re.IGNORECASE)
 _OTHER = {"left": "right", "right": "left"}
 # Where "right" is no side.
-_NO_SIDE = re.compile(r"\b(all right|alright|right (now|away|here|there|behind|ahead|in front|at|up|on|after|before|then|of way)|"
-                      r"(right|left) (over|out|alone|to)|that's right|is right|right[?.!,]|what's left|have left)\b|right[?!.,]",
-                      re.IGNORECASE)  # fmt: skip
+_NO_SIDE = re.compile(
+    r"\b(all right|alright|that's right|is right|what's left|have left|(right|left) (over|out|alone|to)"
+    r"|right (now|away|here|there|behind|ahead|in front|at|up|on|after|before|then|of way))\b|right[?.!,]",
+    re.IGNORECASE,
+)
 
 
 def mirror(sentence: str, program: str) -> tuple[str, str] | None:
     """Swaps the sides in a sentence and its program, or None where that would change more than sides."""
     said = {match.lower() for match in _SIDE.findall(sentence)}
-    meant = {match for match in re.findall(r"value: (left|right)\n", program)}
-    if not meant or said != meant or _NO_SIDE.search(sentence):
+    meant = set(re.findall(r"value: (left|right)\n", program))
+    mirrored = _SIDE.sub(_swap, sentence)
+    # What reads as no side after the swap is left alone too: else there would be more rights than lefts.
+    if not meant or said != meant or _NO_SIDE.search(sentence) or _NO_SIDE.search(mirrored):
         return None
-    return _SIDE.sub(_swap, sentence), re.sub(r"(?<=value: )(left|right)(?=\n)", lambda m: _OTHER[m[0]], program)
+    return mirrored, re.sub(r"(?<=value: )(left|right)(?=\n)", lambda m: _OTHER[m[0]], program)
 
 
 def _swap(match: re.Match[str]) -> str:

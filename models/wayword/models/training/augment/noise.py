@@ -1,19 +1,21 @@
 """Speech and typing as they really arrive: fillers, courtesy, no punctuation, mis-heard words, slips of the finger."""
 
 import re
+from collections import Counter
 from random import Random
 
 from wayword.models.training.augment.numbers import find_numbers, say
 
 _OPENERS = (
     "please", "hey", "hey car", "okay", "ok", "um", "uh", "so", "alright", "listen", "excuse me", "hi", "hello", "well",
-    "right then", "sorry", "car", "hey there", "oh", "erm", "look", "and", "yeah", "now", "okay so", "um so", "hey wayword",
-    "good morning", "if you don't mind", "quick one", "hmm", "ah", "say", "oi", "listen up", "dear car", "one thing",
+    "right then", "sorry", "car", "hey there", "oh", "erm", "look", "and", "yeah", "now", "okay so", "um so",
+    "hey wayword", "good morning", "if you don't mind", "quick one", "hmm", "ah", "say", "oi", "listen up",
+    "dear car", "one thing",
 )  # fmt: skip
 _CLOSERS = (
     "please", "thanks", "thank you", "if you can", "would you", "mate", "dear", "buddy", "okay", "will you", "cheers",
     "if you don't mind", "pretty please", "if that's alright", "man", "my friend", "thank you very much", "ta", "love",
-    "right", "yeah", "if possible", "darling", "sir", "for me",
+    "yeah", "if possible", "darling", "sir", "for me",
 )  # fmt: skip
 _MISHEARD = {
     "lane": ("line", "lain", "lame"), "lanes": ("lines", "lains"), "brake": ("break",), "brakes": ("breaks",),
@@ -51,19 +53,26 @@ def as_heard(sentence: str, rng: Random) -> str:
                 space = " " if follower.isalpha() else ""
                 said = say(mention.value, rng, words=True) + space
                 sentence = sentence[: mention.start] + said + sentence[mention.end :]
-    sentence = re.sub(r"(?<=\d)\.(?=\d)", "\x00", sentence.lower())
-    sentence = re.sub(r"[^\w\s'/^²\x00]", " ", sentence).replace("\x00", ".")
-    return " ".join(sentence.split()) or sentence
+    heard = re.sub(r"(?<=\d)\.(?=\d)", "\x00", sentence.lower())
+    heard = re.sub(r"[^\w\s'/^²\x00]", " ", heard).replace("\x00", ".")
+    return " ".join(heard.split()) or sentence
 
 
 def mishear(sentence: str, rng: Random) -> str:
-    """Replaces one word by one that sounds like it."""
+    """Replaces one word by one that sounds like it, unless that makes another number: "to sixty" is not "two sixty"."""
     words = sentence.split(" ")
     candidates = [index for index, word in enumerate(words) if word.lower() in _MISHEARD]
-    if candidates:
-        index = rng.choice(candidates)
-        words[index] = rng.choice(_MISHEARD[words[index].lower()])
-    return " ".join(words)
+    if not candidates:
+        return sentence
+    index = rng.choice(candidates)
+    words[index] = rng.choice(_MISHEARD[words[index].lower()])
+    misheard = " ".join(words)
+    lost = Counter(_values(sentence)) - Counter(_values(misheard))
+    return sentence if lost else misheard
+
+
+def _values(sentence: str) -> list[float]:
+    return [mention.value for mention in find_numbers(sentence)]
 
 
 def mistype(sentence: str, rng: Random) -> str:

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from random import Random
 
 _UNITS = (
-    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen "
-    "eighteen nineteen"
-).split()
-_TENS = "twenty thirty forty fifty sixty seventy eighty ninety".split()
+    "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve",
+    "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen",
+)  # fmt: skip
+_TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 _ORDINALS = ("first", "second", "third", "fourth", "fifth")
 _ORDINAL_DIGITS = ("1st", "2nd", "3rd", "4th", "5th")
 
@@ -18,11 +18,11 @@ _TEN = {word: 10 * (index + 2) for index, word in enumerate(_TENS)}
 _ten_unit = rf"(?:{'|'.join(_TENS)})(?:[ -](?:{'|'.join(_UNITS[1:10])}))?"
 _below_100 = rf"(?:{_ten_unit}|{'|'.join(sorted(_UNITS, key=len, reverse=True))})"
 _hundreds = rf"(?:(?:a|{'|'.join(_UNITS[1:10])}) )?hundred(?:(?: and)? {_below_100})?"
-_short_hundreds = rf"(?:one|two|three) (?:{_ten_unit}|ten|fifteen)"  # "one twenty"
+_short_hundreds = rf"(?:one|two|three) (?:{_ten_unit}|{'|'.join(_UNITS[10:])})"  # "one twenty"
 _whole = rf"(?:{_hundreds}|{_short_hundreds}|{_below_100})"
 _NUMBER = re.compile(
     rf"(?<![\w.,-])(?:(?P<digits>\d+(?:\.\d+)?)(?=(?:km|mph|m|ft|s)?(?![\w])(?!\.\d))"
-    rf"|(?P<words>{_whole}(?: point (?:{'|'.join(_UNITS[:10])})+| and a half)?)(?![\w-]))",
+    rf"|(?P<words>{_whole}(?: point(?: (?:{'|'.join(_UNITS[:10])}))+| and a half)?)(?![\w-]))",
     re.IGNORECASE,
 )
 _ORDINAL = re.compile(rf"\b(?:{'|'.join(_ORDINALS)}|{'|'.join(_ORDINAL_DIGITS)})\b", re.IGNORECASE)

@@ -82,6 +82,9 @@ _QUANTITY = re.compile(
     r"  - name: (?P<name>\w+)\n    value: (?P<sign>[+-]?)(?P<number>\d+(?:\.\d+)?)(?: (?P<unit>\S+))?\n"
 )
 
+# Words that a number of an exit follows.
+_COUNTER = re.compile(r"\b(?:exit|number|no\.?|ramp|junction|turning)\s$", re.IGNORECASE)
+
 
 @dataclass(frozen=True, slots=True)
 class _Edit:
@@ -115,13 +118,19 @@ def vary_quantities(sentence: str, program: str, rng: Random) -> tuple[str, str]
 
 
 def _exit_edit(
-    _: str, quantity: re.Match[str], mention: Mention, others: set[float], rng: Random
+    sentence: str, quantity: re.Match[str], mention: Mention, others: set[float], rng: Random
 ) -> tuple[_Edit, _Edit] | None:
     number = rng.randint(1, 5)
-    if number in others:
+    if number in others or _is_pronoun(sentence, mention):
         return None
     said = say_ordinal(number, rng) if mention.ordinal else say(number, rng, words=rng.random() < 0.5)
     return _Edit(mention.start, mention.end, said), _Edit(*quantity.span("number"), str(number))
+
+
+def _is_pronoun(sentence: str, mention: Mention) -> bool:
+    """Whether it is the "one" of "the next one", not of "exit one"."""
+    said = sentence[mention.start : mention.end].lower()
+    return said == "one" and not _COUNTER.search(sentence, 0, mention.start)
 
 
 def _quantity_edit(
@@ -145,8 +154,8 @@ def _quantity_edit(
         return None
     words = (sentence[mention.start].isalpha()) ^ (rng.random() < 0.35)
     said = say(value, rng, words=words)
-    if words and said_unit[:1].isalpha():  # "60mph" in words
-        said_unit = f" {said_unit}"
+    if words and said_unit:  # "60mph" and "2-second" in words
+        said_unit = f" {said_unit.lstrip(' -')}"
     return (
         _Edit(mention.start, end, said + said_unit),
         _Edit(quantity.start("number"), quantity.end("unit"), f"{value:g} {unit}"),

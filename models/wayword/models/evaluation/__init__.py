@@ -1,0 +1,1 @@
+"""How well instructions are translated: accuracy, false activations, attacks, confidence, ablations."""
