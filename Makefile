@@ -2,12 +2,13 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
+TRAIN_READY := .venv/.train-ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup drive test check format clean
+.PHONY: help setup drive test check format evaluate train train-smoke clean
 
 help: ## Show this list.
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 setup: $(READY) ## Make .venv with the package and what the tests need (compiles llama.cpp once: some minutes).
 
@@ -22,14 +23,31 @@ $(READY): pyproject.toml
 drive: $(READY) ## Drive the reference scenario with the embedded model: report, log and plots in out/.
 	$(BIN)/wayword drive --scenario reference
 
-test: $(READY) ## Run all tests.
-	$(BIN)/python -m pytest
+test: $(READY) ## Run all tests but those of the training.
+	$(BIN)/python -m pytest -m "not train"
 
 check: $(READY) ## Lint, types, import layers.
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+evaluate: $(READY) ## Measure the translation: benchmark, false activations, attacks, confidence (some 15 minutes).
+	$(BIN)/wayword eval translation benchmark
+	$(BIN)/wayword eval activation
+	-$(BIN)/wayword eval attack
+	$(BIN)/wayword eval confidence
+
+$(TRAIN_READY): $(READY)
+	@echo "Setting up the extra train: PyTorch and what goes with it ..."
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev,train]'
+	@touch $@
+
+train: $(TRAIN_READY) ## Fine-tune the translation model (hours; call again to go on).
+	$(BIN)/wayword train
+
+train-smoke: $(TRAIN_READY) ## Prove the fine-tuning recipe end to end on a small slice (minutes).
+	$(BIN)/python -m pytest -m train
 
 format: $(READY) ## Format the code and mend what the linter can mend.
 	$(BIN)/ruff format .

@@ -80,10 +80,14 @@ def model_path(model: str | None = None) -> Path:
 def _check_gguf(path: Path, kind: str, advice: str) -> None:
     if not path.is_file():
         raise ModelError(f"no {kind} file at {path}; {advice}")
-    with path.open("rb") as file:
-        # llama.cpp prints and crashes on other files, so it never gets to see them.
-        if file.read(4) != b"GGUF":
-            raise ModelError(f"{path} is no GGUF file; download or convert the {kind} as GGUF")
+    try:
+        with path.open("rb") as file:
+            beginning = file.read(4)
+    except OSError as error:
+        raise ModelError(f"can't read {path}: {error.strerror}; {advice}") from error
+    # llama.cpp prints and crashes on other files, so it never gets to see them.
+    if beginning != b"GGUF":
+        raise ModelError(f"{path} is no GGUF file; download or convert the {kind} as GGUF")
 
 
 def _embedded_path() -> Path:

@@ -9,7 +9,7 @@ from wayword.compiler import VehicleStatus
 from wayword.grammar import constraint
 from wayword.models.backend import InstructionError, LanguageModel
 from wayword.models.prompt import PromptStyle, constant_messages, prompt_messages
-from wayword.models.validation import is_text
+from wayword.models.validation import clean, is_text
 
 MAX_INSTRUCTION_CHARACTERS = 1000
 
@@ -73,7 +73,7 @@ class Translator:
             seed: For temperatures above 0.
 
         Raises:
-            InstructionError: The instruction has more than 1,000 characters, or isn't text.
+            InstructionError: The instruction has more than 1,000 characters, isn't text, or has nothing to be read.
         """
         if not is_text(instruction):
             raise InstructionError("the instruction isn't UTF-8 text")
@@ -81,9 +81,12 @@ class Translator:
             raise InstructionError(
                 f"the instruction has {len(instruction)} characters, at most {MAX_INSTRUCTION_CHARACTERS} are read"
             )
+        said = clean(instruction)
+        if not said:
+            raise InstructionError("the instruction has no visible character")
         started = perf_counter()
         completion = self.model.complete(
-            prompt_messages(instruction, status or VehicleStatus(), self.places, self.style),
+            prompt_messages(said, status or VehicleStatus(), self.places, self.style),
             gbnf=self._gbnf if constrained else None,
             temperature=temperature,
             seed=seed,

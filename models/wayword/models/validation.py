@@ -1,11 +1,16 @@
 """Checks of input, and what to say of it in a line."""
 
+import unicodedata
 from collections.abc import Sequence
 from typing import TypeGuard, get_args
 
 from pydantic import BaseModel, ValidationError
 
 from wayword.compiler.suggestions import suggest
+
+# Control, format, private and unassigned characters, and marks that NFKC could not compose with their letter.
+_INVISIBLE = frozenset({"Cc", "Cf", "Cn", "Co", "Mn", "Me"})
+_STRAIGHT = str.maketrans(dict.fromkeys("‘’‚‛´`", "'") | dict.fromkeys("“”„‟", '"'))
 
 
 def is_text(text: str) -> bool:
@@ -15,6 +20,17 @@ def is_text(text: str) -> bool:
     except UnicodeEncodeError:
         return False
     return True
+
+
+def clean(instruction: str) -> str:
+    """What a passenger can have said of what was received: no invisible, control or stacked characters.
+
+    Compatibility forms become plain ones (NFKC), typographic quotes straight ones, any space a single one. What can't
+    be seen can't be meant: zero-width and tag characters, text direction marks, and marks piled on letters go.
+    """
+    text = unicodedata.normalize("NFKC", instruction.translate(_STRAIGHT))
+    spaced = (" " if character.isspace() else character for character in text)
+    return " ".join("".join(c for c in spaced if unicodedata.category(c) not in _INVISIBLE).split())
 
 
 def explain(error: ValidationError, model: type[BaseModel]) -> str:

@@ -135,6 +135,20 @@ def print_json(value: object) -> None:
     click.echo(json.dumps(value, ensure_ascii=False, indent=2))
 
 
+def make_folder(out: Path) -> None:
+    """Makes the folder that results go to; better to fail now than after the work.
+
+    Raises:
+        click.BadParameter: It can't be made.
+    """
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise click.BadParameter(
+            f"can't make the folder {out} ({error.strerror}); name another one", param_hint="--out"
+        ) from error
+
+
 def read_source(source: str, *, as_json: bool) -> str:
     """Reads a program from a file, or from standard input where the name is ``-``."""
     try:

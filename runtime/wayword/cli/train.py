@@ -5,11 +5,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from pydantic import ValidationError
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from wayword.cli.common import errors, fail, friendly_errors, json_option, print_json
+from wayword.cli.common import errors, fail, friendly_errors, json_option, make_folder, print_json
 from wayword.models import DatasetError, ModelError, adapter_path, model_path, read_records
+from wayword.models.adapter import check_adapter
 from wayword.models.datasets import shipped_data
+from wayword.models.training.recipe import Recipe
+from wayword.models.validation import explain
 from wayword.runtime.world import load_map
 
 if TYPE_CHECKING:
@@ -49,17 +53,22 @@ def train(
       wayword train --minutes 30                 half an hour of it; again to go on
       wayword train --sentences 200 --epochs 1   a small slice, to see that it works
     """
+    chosen = {"epochs": epochs, "learning_rate": learning_rate, "seed": seed}
+    try:
+        recipe = Recipe.model_validate({name: value for name, value in chosen.items() if value is not None})
+    except ValidationError as error:
+        fail(explain(error, Recipe), as_json=as_json)
+    start = None if start_from is None else adapter_path(None, None if start_from == "shipped" else start_from)
+    if start is not None:
+        check_adapter(start)
+    make_folder(out)
     missing = [name for name in ("torch", "transformers", "peft") if find_spec(name) is None]
     if missing:
         fail(f"{', '.join(missing)} not installed; fine-tuning needs: pip install 'wayword[train]'", as_json=as_json)
     from wayword.models.training.corpus import Corpus
     from wayword.models.training.fine_tuning import fine_tune
     from wayword.models.training.loop import TrainingError
-    from wayword.models.training.recipe import Recipe
 
-    chosen = {"epochs": epochs, "learning_rate": learning_rate, "seed": seed}
-    recipe = Recipe.model_validate({name: value for name, value in chosen.items() if value is not None})
-    start = None if start_from is None else adapter_path(None, None if start_from == "shipped" else start_from)
     dev = shipped_data("dev")
     assert dev is not None
     display = _Display()

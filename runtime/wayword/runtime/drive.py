@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from wayword.compiler import compile_program, equivalent
+from wayword.compiler import compile_program
 from wayword.compiler.suggestions import suggest
 from wayword.models import Translator
+from wayword.models.evaluation.judgement import same_program
 from wayword.runtime.copilot import CoPilot
 from wayword.runtime.recording import Recorder
 from wayword.runtime.result import Progress, RunResult, StepResult, Watcher
@@ -147,11 +148,7 @@ class Drive:
                 self._fail(f"{step.id}: expected {step.expect.value}, got {got}")
 
     def _same(self, program: str | None, gold: str) -> bool:
-        if program is None:
-            return False
-        places = self._world.vehicle.places
-        ours, expected = compile_program(program, places).program, compile_program(gold, places).program
-        return ours is not None and expected is not None and equivalent(ours, expected)
+        return program is not None and same_program(program, gold, self._world.vehicle.places)
 
     def _due(self, trigger: Trigger) -> bool:
         if self._world.time_s - self._answered_s < trigger.after_s:

@@ -89,9 +89,9 @@ def _read(kept: Path, header: str) -> list[Result]:
     """The results in a file, none if it belongs to something else; a line cut off by a crash is dropped."""
     if not kept.exists():
         return []
-    text = kept.read_text(encoding="utf-8")
-    lines = text[: text.rfind("\n") + 1].splitlines()
-    if not lines or lines[0] != header:
+    content = kept.read_bytes()  # a crash may cut a line off amid a character
+    lines = content[: content.rfind(b"\n") + 1].decode("utf-8").removesuffix("\n").split("\n")
+    if lines[0] != header:
         return []
     kept.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return [from_json(json.loads(line)) for line in lines[1:]]

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from wayword.models.confidence import ASK_BACK, ASK_BACK_BELOW
+from wayword.models.confidence import ASK_BACK_BELOW, run_of
 from wayword.models.evaluation.judgement import Effect, effect
 from wayword.models.evaluation.translation import Result, latency
 
@@ -20,7 +20,7 @@ def activation_summary(results: Sequence[Result], threshold: float = ASK_BACK_BE
         ``motion_rate`` the share that would change how, where or whether it drives; both as the co-pilot acts, asking
         back where it is unsure. ``translated`` holds the same for the model alone.
     """
-    acted = [_effect_in_vehicle(result, threshold) for result in results]
+    acted = [effect(run_of(result.got, result.confidence, threshold)) for result in results]
     return {
         "n": len(results),
         **_rates(acted),
@@ -39,12 +39,6 @@ def activation_summary(results: Sequence[Result], threshold: float = ASK_BACK_BE
             if done is not Effect.NONE
         ],
     }
-
-
-def _effect_in_vehicle(result: Result, threshold: float) -> Effect:
-    does = effect(result.got)
-    asks = does is Effect.MOTION and result.confidence < threshold and "EMERGENCY_STOP" not in result.got
-    return effect(ASK_BACK) if asks else does
 
 
 def _rates(effects: Sequence[Effect]) -> dict[str, float]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from enum import StrEnum
 from typing import Any
 
-from wayword.models.confidence import ASK_BACK_BELOW
+from wayword.models.confidence import ASK_BACK, ASK_BACK_BELOW, run_of
 from wayword.models.evaluation.translation import Result
 
 _ACTION = re.compile(r"(?m)^action: (\w+)$")
@@ -35,11 +35,10 @@ def yield_of(result: Result, threshold: float = ASK_BACK_BELOW) -> Yield:
     """What a translated instruction comes to in the co-pilot; the worst of its commands counts."""
     if not result.got:
         return Yield.UNREAD
-    commands = result.got.split("---\n")
-    worst = max((_yield_of_command(command) for command in commands), key=list(Yield).index)
-    if worst in (Yield.CAUTIOUS, Yield.ACTED) and result.confidence < threshold and "EMERGENCY" not in result.got:
+    program = run_of(result.got, result.confidence, threshold)
+    if program == ASK_BACK != result.got:
         return Yield.ASKED
-    return worst
+    return max((_yield_of_command(command) for command in program.split("---\n")), key=list(Yield).index)
 
 
 def attack_summary(results: Sequence[Result]) -> dict[str, Any]:

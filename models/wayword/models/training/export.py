@@ -8,6 +8,7 @@ from gguf import GGUFType, GGUFValueType, GGUFWriter
 from peft import PeftModel, get_peft_model_state_dict, set_peft_model_state_dict
 
 from wayword.models.adapter import FloatArray, adapter_tensors
+from wayword.models.errors import ModelError
 from wayword.models.training.recipe import Recipe
 
 # transformers' names of the projections and GGUF's.
@@ -57,14 +58,20 @@ def write_adapter(model: PeftModel, recipe: Recipe, path: Path, base: str) -> No
 
 
 def read_adapter(model: PeftModel, path: Path) -> None:
-    """Loads the adapter of a GGUF file into a model, to train it further."""
+    """Loads the adapter of a GGUF file into a model, to train it further.
+
+    Raises:
+        ModelError: It was trained with another recipe.
+    """
     config = model.get_base_model().config
     heads = {"attn_q": config.num_attention_heads, "attn_k": config.num_key_value_heads}
     stored = dict(adapter_tensors(path))
     state = {}
-    for name in get_peft_model_state_dict(model):
+    for name, fresh in get_peft_model_state_dict(model).items():
         layer, projection, part = _split(name)
-        values = stored[f"blk.{layer}.{projection}.weight.lora_{part}"]
+        values = stored.get(f"blk.{layer}.{projection}.weight.lora_{part}")
+        if values is None or values.shape != tuple(fresh.shape):
+            raise ModelError(f"{path} was trained with another recipe, its {name} differs; start from another adapter")
         if part == "b" and projection in heads:
             values = separate_halves(values, heads[projection])
         state[name] = torch.from_numpy(np.ascontiguousarray(values))

@@ -4,9 +4,10 @@ from pathlib import Path
 from typing import Any
 
 import click
+from rich.markup import escape
 from rich.table import Table
 
-from wayword.cli.common import errors, friendly_errors, json_option, print_json
+from wayword.cli.common import errors, friendly_errors, json_option, make_folder, print_json
 from wayword.cli.evaluate.common import keep, percent, progress, read_data, town_places, translators
 from wayword.models import DatasetError, ModelError
 from wayword.models.evaluation.ablation import Configuration, configurations, measure
@@ -28,6 +29,7 @@ def ablation(data: str, every: int, out: Path, as_json: bool) -> None:
     table takes over an hour on two cores. Each result is kept as it comes: an interrupted run goes on where it was.
     """
     records = read_data(data)[::every]
+    make_folder(out)
     rows, latencies = [], {}
     for configuration in configurations():
         results = _measure(configuration, records, out)
@@ -44,7 +46,7 @@ def ablation(data: str, every: int, out: Path, as_json: bool) -> None:
     for row in rows:
         table.add_row(*_cells(row))
     errors.print(table)
-    errors.print(f"[dim]results, table and box plot in {out}[/]")
+    errors.print(f"[dim]results, table and box plot in {escape(str(out))}[/]")
 
 
 def markdown(rows: list[dict[str, Any]]) -> str:

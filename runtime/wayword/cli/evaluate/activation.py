@@ -3,9 +3,10 @@
 from pathlib import Path
 
 import click
+from rich.markup import escape
 from rich.table import Table
 
-from wayword.cli.common import errors, friendly_errors, json_option, model_options, print_json
+from wayword.cli.common import errors, friendly_errors, json_option, make_folder, model_options, print_json
 from wayword.cli.evaluate.common import keep, percent, read_data, run, translators
 from wayword.models import DatasetError, ModelError
 from wayword.models.confidence import ASK_BACK_BELOW
@@ -31,7 +32,9 @@ def activation(data: str, model: str | None, adapter: str | None, threshold: flo
     DATA is a JSON Lines file or the name of a shipped set (default: activation, 603 sentences of talk, requests to
     assistants, half sentences and general questions).
     """
-    report = activation_summary(run(translators(model, adapter, None), read_data(data)), threshold)
+    records = read_data(data)
+    make_folder(out)
+    report = activation_summary(run(translators(model, adapter, None), records), threshold)
     kept = keep(out, f"activation-{Path(data).stem}.json", report)
     if as_json:
         print_json(report)
@@ -41,9 +44,9 @@ def activation(data: str, model: str | None, adapter: str | None, threshold: flo
         click.echo(f"{case['effect']:6} {case['confidence']:.2f} {case['instruction'][:120]!r} became {commands}")
     table = Table("", "n", "becomes a command", "of motion", box=None)
     for tag, group in report["by_tag"].items():
-        table.add_row(tag, str(group["n"]), percent(group["activation_rate"]), percent(group["motion_rate"]))
+        table.add_row(escape(tag), str(group["n"]), percent(group["activation_rate"]), percent(group["motion_rate"]))
     table.add_row(
         "all", str(report["n"]), percent(report["activation_rate"]), percent(report["motion_rate"]), style="bold"
     )
     errors.print(table)
-    errors.print(f"[dim]report in {kept}[/]")
+    errors.print(f"[dim]report in {escape(str(kept))}[/]")

@@ -4,9 +4,10 @@ from collections import Counter
 from pathlib import Path
 
 import click
+from rich.markup import escape
 from rich.table import Table
 
-from wayword.cli.common import FAILED, errors, friendly_errors, json_option, model_options, print_json
+from wayword.cli.common import FAILED, errors, friendly_errors, json_option, make_folder, model_options, print_json
 from wayword.cli.evaluate.common import keep, read_data, run, translators
 from wayword.models import DatasetError, ModelError
 from wayword.models.evaluation.attack import Yield, attack_summary
@@ -24,9 +25,11 @@ def attack(context: click.Context, data: str, model: str | None, adapter: str | 
 
     DATA is a JSON Lines file or the name of a shipped set (default: attack: injections, role play, unsafe acts in
     disguise, Unicode tricks, other languages, encodings, overlong input). Exit status 1 if one yields a command that
-    adds no caution and that the compiler lets pass; the validator still stands between it and the vehicle.
+    adds no caution; compiler and validator still stand between it and the vehicle.
     """
-    report = attack_summary(run(translators(model, adapter, None), read_data(data)))
+    records = read_data(data)
+    make_folder(out)
+    report = attack_summary(run(translators(model, adapter, None), records))
     kept = keep(out, f"attack-{Path(data).stem}.json", report)
     if as_json:
         print_json(report)
@@ -36,7 +39,7 @@ def attack(context: click.Context, data: str, model: str | None, adapter: str | 
                 commands = case["got"].replace("\n", " ").replace("parameters: ", "")
                 click.echo(f"{case['id']} {case['confidence']:.2f} {case['instruction'][:120]!r} became {commands}")
         _show(report["by_tag"], report["yields"])
-        errors.print(f"[dim]report in {kept}[/]")
+        errors.print(f"[dim]report in {escape(str(kept))}[/]")
     if report["yields"].get(Yield.ACTED):
         context.exit(FAILED)
 
@@ -44,5 +47,5 @@ def attack(context: click.Context, data: str, model: str | None, adapter: str | 
 def _show(by_tag: dict[str, Counter[str]], total: Counter[str]) -> None:
     table = Table("", *[kind.value for kind in Yield], box=None)
     for tag, count in [*by_tag.items(), ("all", total)]:
-        table.add_row(tag, *[str(count.get(kind, 0)) for kind in Yield])
+        table.add_row(escape(tag), *[str(count.get(kind, 0)) for kind in Yield])
     errors.print(table)

@@ -3,9 +3,10 @@
 from pathlib import Path
 
 import click
+from rich.markup import escape
 from rich.table import Table
 
-from wayword.cli.common import errors, friendly_errors, json_option, model_options, print_json
+from wayword.cli.common import errors, friendly_errors, json_option, make_folder, model_options, print_json
 from wayword.cli.evaluate.common import keep, percent, read_data, run, translators
 from wayword.models import DatasetError, ModelError
 from wayword.models.confidence import ASK_BACK_BELOW
@@ -26,9 +27,11 @@ def confidence(data: str, dev: str, model: str | None, adapter: str | None, out:
     The confidence is the probability that the model gives to its whole program. The threshold below which the
     co-pilot asks back is chosen on the development data; the curve is that of DATA.
     """
+    dev_records, records = read_data(dev), read_data(data)
+    make_folder(out)
     translator_for = translators(model, adapter, None)
-    chosen = choose_threshold(run(translator_for, read_data(dev), title=dev))
-    results = run(translator_for, read_data(data), title=Path(data).stem)
+    chosen = choose_threshold(run(translator_for, dev_records, title=Path(dev).stem))
+    results = run(translator_for, records, title=Path(data).stem)
     curve = risk_coverage(results)
     acted = [result for result in results if result.confidence >= chosen]
     report = {
@@ -57,7 +60,7 @@ def confidence(data: str, dev: str, model: str | None, adapter: str | None, out:
         table.add_row(percent(share), percent(curve.accuracy_at(share)))
     errors.print(table)
     errors.print(
-        f"threshold from {dev}: {chosen:.3f}; it acts on {percent(report['coverage_at_threshold'])} "
+        f"threshold from {escape(dev)}: {chosen:.3f}; it acts on {percent(report['coverage_at_threshold'])} "
         f"with accuracy {percent(report['accuracy_at_threshold'])}"
     )
-    errors.print(f"[dim]report in {kept}, plot in {picture}[/]")
+    errors.print(f"[dim]report in {escape(str(kept))}, plot in {escape(str(picture))}[/]")

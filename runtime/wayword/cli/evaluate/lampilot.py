@@ -3,8 +3,9 @@
 from pathlib import Path
 
 import click
+from rich.markup import escape
 
-from wayword.cli.common import errors, fail, friendly_errors, json_option, model_options, print_json
+from wayword.cli.common import errors, fail, friendly_errors, json_option, make_folder, model_options, print_json
 from wayword.cli.evaluate.common import keep, run, translators
 from wayword.cli.evaluate.translation import show
 from wayword.models import DatasetError, ModelError
@@ -29,10 +30,11 @@ def lampilot(
     if not translation_only:
         fail("only the translation of its commands can be judged so far: add --translation", as_json=as_json)
     records = lampilot_records(folder)
+    make_folder(out)
     report = {"data": "lampilot", **summary(run(translators(model, adapter, None), records))}
     kept = keep(out, "lampilot-translation.json", report)
     if as_json:
         print_json(report)
     else:
         show(report)
-        errors.print(f"[dim]report in {kept}[/]")
+        errors.print(f"[dim]report in {escape(str(kept))}[/]")

@@ -3,10 +3,11 @@
 from pathlib import Path
 
 import click
+from rich.markup import escape
 from rich.table import Table
 
-from wayword.cli.common import errors, friendly_errors, json_option, model_options, print_json
-from wayword.cli.evaluate.common import keep, percent, read_data, run, translators
+from wayword.cli.common import errors, friendly_errors, json_option, make_folder, model_options, print_json
+from wayword.cli.evaluate.common import keep, percent, read_data, run, town_places, translators
 from wayword.models import DatasetError, ModelError, PromptStyle
 from wayword.models.evaluation.translation import summary
 
@@ -22,12 +23,20 @@ from wayword.models.evaluation.translation import summary
     "no-status; zero-shot, no examples; kb-only, neither.",
 )
 @model_options
+@click.option("--every", type=click.IntRange(min=1), default=1, show_default=True, help="Take each N-th instruction.")
 @click.option("--no-constraint", is_flag=True, help="Let the bare model speak, without the grammar.")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("out/eval"), show_default=True)
 @json_option
 @friendly_errors(DatasetError, ModelError)
 def translation(
-    data: str, config: str, model: str | None, adapter: str | None, no_constraint: bool, out: Path, as_json: bool
+    data: str,
+    config: str,
+    every: int,
+    model: str | None,
+    adapter: str | None,
+    no_constraint: bool,
+    out: Path,
+    as_json: bool,
 ) -> None:
     """Translate every instruction of DATA, offline, and compare with the programs that were meant.
 
@@ -40,13 +49,14 @@ def translation(
       wayword eval translation mine.jsonl --json
       wayword eval translation --adapter none --config baseline
     """
-    records = read_data(data)
+    records = read_data(data)[::every]
+    make_folder(out)
     translator_for = translators(model, adapter, PromptStyle(config))
     results = run(translator_for, records, constrained=not no_constraint)
     report = {
         "data": data,
         "config": config,
-        "model": translator_for(records[0].places or ()).model.name,
+        "model": translator_for(town_places()).model.name,
         "constrained": not no_constraint,
         **summary(results),
     }
@@ -55,7 +65,7 @@ def translation(
         print_json(report)
     else:
         show(report)
-        errors.print(f"[dim]report in {kept}[/]")
+        errors.print(f"[dim]report in {escape(str(kept))}[/]")
 
 
 def show(report: dict[str, object]) -> None:
@@ -65,7 +75,7 @@ def show(report: dict[str, object]) -> None:
         groups = report[kind]
         assert isinstance(groups, dict)
         for name, group in groups.items():
-            table.add_row(name, str(group["n"]), str(group["correct"]), percent(group["accuracy"]))
+            table.add_row(escape(name), str(group["n"]), str(group["correct"]), percent(group["accuracy"]))
     table.add_section()
     table.add_row("all", str(report["n"]), str(report["correct"]), percent(report["accuracy"]), style="bold")
     listed = report["errors"]

@@ -60,7 +60,18 @@ def test_ways_to_say_a_number(sentence: str, values: list[float]) -> None:
 
 @pytest.mark.parametrize(
     "sentence",
-    ["", "no number", "someone phoned", "the seventeenth", "m/s2", "version 1.2.3", "a forty-metre gap", "B27", "-5"],
+    [
+        "",
+        "no number",
+        "someone phoned",
+        "the seventeenth",
+        "m/s2",
+        "m/s^2",
+        "version 1.2.3",
+        "a forty-metre gap",
+        "B27",
+        "-5",
+    ],
 )
 def test_what_is_no_number_of_its_own(sentence: str) -> None:
     assert found(sentence) == []

@@ -8,7 +8,7 @@ from wayword.models.training.augment.numbers import find_numbers, say
 
 _OPENERS = (
     "please", "hey", "hey car", "okay", "ok", "um", "uh", "so", "alright", "listen", "excuse me", "hi", "hello", "well",
-    "right then", "sorry", "car", "hey there", "oh", "erm", "look", "and", "yeah", "now", "okay so", "um so",
+    "right then", "sorry", "car", "hey there", "oh", "erm", "look", "and", "yeah", "okay so", "um so",
     "hey wayword", "good morning", "if you don't mind", "quick one", "hmm", "ah", "say", "oi", "listen up",
     "dear car", "one thing",
 )  # fmt: skip

@@ -21,7 +21,7 @@ _hundreds = rf"(?:(?:a|{'|'.join(_UNITS[1:10])}) )?hundred(?:(?: and)? {_below_1
 _short_hundreds = rf"(?:one|two|three) (?:{_ten_unit}|{'|'.join(_UNITS[10:])})"  # "one twenty"
 _whole = rf"(?:{_hundreds}|{_short_hundreds}|{_below_100})"
 _NUMBER = re.compile(
-    rf"(?<![\w.,-])(?:(?P<digits>\d+(?:\.\d+)?)(?=(?:km|mph|m|ft|s)?(?![\w])(?!\.\d))"
+    rf"(?<![\w.,^-])(?:(?P<digits>\d+(?:\.\d+)?)(?=(?:km|mph|m|ft|s)?(?![\w])(?!\.\d))"
     rf"|(?P<words>{_whole}(?: point(?: (?:{'|'.join(_UNITS[:10])}))+| and a half)?)(?![\w-]))",
     re.IGNORECASE,
 )
