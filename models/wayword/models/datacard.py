@@ -9,8 +9,8 @@ from importlib.resources.abc import Traversable
 
 from wayword.compiler.vocabulary import ACTIONS, Choice, CommandType
 from wayword.models.dataset import Record, parse_records
+from wayword.models.datasets import TEST_SETS
 
-_TEST_SETS = ("benchmark", "dev", "activation", "attack")
 _ACTION = re.compile(r"(?m)^action: (\w+)$")
 
 DataSets = Mapping[str, Sequence[Record]]
@@ -49,13 +49,13 @@ def _training_files() -> DataSets:
 
 
 def _other_files() -> DataSets:
-    return {f"{name}.jsonl": _read(f"{name}.jsonl") for name in (*_TEST_SETS, "examples")}
+    return {f"{name}.jsonl": _read(f"{name}.jsonl") for name in (*TEST_SETS, "examples")}
 
 
 def _columns(training: DataSets, others: DataSets) -> DataSets:
     """All training records in one column, then each test set in its own."""
     all_training = [record for records in training.values() for record in records]
-    return {"training": all_training, **{name: others[f"{name}.jsonl"] for name in _TEST_SETS}}
+    return {"training": all_training, **{name: others[f"{name}.jsonl"] for name in TEST_SETS}}
 
 
 def _files_table(records: DataSets, training: DataSets) -> str:

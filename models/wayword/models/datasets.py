@@ -3,7 +3,7 @@
 from pathlib import Path
 
 DATA = Path(__file__).parent / "data"
-TEST_SETS = ("benchmark", "dev", "activation", "attack")
+TEST_SETS = ("benchmark", "dev", "activation", "attack", "lampilot")
 
 
 def shipped_data(name: str) -> Path | None:

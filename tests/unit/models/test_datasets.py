@@ -15,12 +15,13 @@ from tests.town import TOWN
 from wayword.compiler import Compilation, compile_program
 from wayword.compiler.vocabulary import ACTIONS, DRIVING_PARAMETERS, Choice, CommandType, Quantity
 from wayword.models import Record, datacard, read_records
-from wayword.models.leakage import leaks, normal_form
+from wayword.models.datasets import TEST_SETS
+from wayword.models.training.leakage import leaks, normal_form
 
 DATA = Path(wayword.models.__file__).parent / "data"
 TEMPLATES = DATA / "train" / "references.jsonl"  # their programs hold expressions: see test_references.py
 TRAINING = sorted((DATA / "train").glob("*.jsonl"))
-HELD_OUT = [DATA / f"{name}.jsonl" for name in ("benchmark", "dev", "activation", "attack")]
+HELD_OUT = [DATA / f"{name}.jsonl" for name in TEST_SETS]
 FILES = [*TRAINING, *HELD_OUT, DATA / "examples.jsonl"]
 
 # What ends a program (language.md section 1): nothing that follows would be run.

@@ -8,6 +8,7 @@ from typing import Any
 from wayword.compiler.vocabulary import ACTIONS
 from wayword.models.dataset import DatasetError, Record
 
+_SIDES = {"left": "left", "right": "right"}
 _TURNS = {"il1": "left", "il2": "straight", "il3": "right"}  # from the south approach
 
 
@@ -30,7 +31,7 @@ def _records(file: Path) -> list[Record]:
     try:
         task = json.loads(file.read_text(encoding="utf-8"))
         command = _command(task["samples"][0]["eval"])
-        sentences = [str(sentence) for sentence in task["commands"]]
+        sentences = _texts(task["commands"])
     except (ValueError, KeyError, IndexError, TypeError, OSError) as error:
         raise DatasetError(f"{file} is no task of LaMPilot-Bench: {error!r}") from error
     return [
@@ -45,6 +46,12 @@ def _records(file: Path) -> list[Record]:
     ]
 
 
+def _texts(commands: Any) -> list[str]:
+    if not isinstance(commands, list) or not all(isinstance(command, str) for command in commands):
+        raise TypeError("commands is no list of texts")
+    return commands
+
+
 def _command(task: Mapping[str, Any]) -> str:
     kind = task["type"]
     if kind in ("ACCEvalbySpeed", "ACCEvalbyDistance"):
@@ -55,9 +62,9 @@ def _command(task: Mapping[str, Any]) -> str:
             return _program("SET_PARAM", parameter, f"{task[quantity]:g} {unit}")
         return _program("ADJUST_PARAM", parameter, f"{task['rel_' + quantity]:+g} {unit}")
     if kind == "LaneChangeEval":
-        return _program("CHANGE_LANE", "direction", task["direction"])
+        return _program("CHANGE_LANE", "direction", _SIDES[task["direction"]])
     if kind == "OvertakeEval":
-        return _program("OVERTAKE", "side", task["direction"])
+        return _program("OVERTAKE", "side", _SIDES[task["direction"]])
     if kind == "IntersectionEval":
         return _program("TURN", "direction", _TURNS[task["direction"][0]])
     if kind == "PullOverEval":

@@ -10,12 +10,14 @@ from llama_cpp import Llama
 from wayword.compiler import VehicleStatus
 from wayword.models.adapter import merged_model
 from wayword.models.chat import ChatTokenizer
-from wayword.models.dataset import Record
+from wayword.models.dataset import Record, read_records
+from wayword.models.datasets import DATA, TEST_SETS
 from wayword.models.evaluation.plots import plot_training
 from wayword.models.training.corpus import Corpus
 from wayword.models.training.encoding import Batch, Encoder, Sample
 from wayword.models.training.export import read_adapter, write_adapter
-from wayword.models.training.loop import Run, Step
+from wayword.models.training.leakage import leaks
+from wayword.models.training.loop import Run, Step, TrainingError
 from wayword.models.training.lora import load_with_adapters
 from wayword.models.training.memory import keep_freed_memory
 from wayword.models.training.recipe import Recipe
@@ -69,8 +71,10 @@ def fine_tune(
         on_step: Called after each step.
 
     Raises:
-        TrainingError: The folder's checkpoint is damaged or belongs to another run.
+        TrainingError: The folder's checkpoint is damaged or belongs to another run, or the corpus holds a sentence of
+            a test set.
     """
+    _refuse_leaks(corpus)
     keep_freed_memory()
     encoder = Encoder(ChatTokenizer(Llama(str(base), vocab_only=True, n_ctx=8, verbose=False)), recipe.structure_share)
     model = load_with_adapters(base, recipe)
@@ -94,6 +98,14 @@ def fine_tune(
     finished = run.done == steps
     agreement = compare(model, merged_model(base, adapter), dev_batches[:_COMPARED_BATCHES]) if finished else None
     return Outcome(adapter, plot, run.history, steps, agreement)
+
+
+def _refuse_leaks(corpus: Corpus) -> None:
+    """Refuses to train on what is meant for testing, or on what is nearly that."""
+    held_out = [record.instruction for name in TEST_SETS for record in read_records(DATA / f"{name}.jsonl")]
+    training = [record.instruction for record in (*corpus.sentences, *corpus.assistant_requests)]
+    for index, tested in leaks(training, held_out).items():
+        raise TrainingError(f"the training sentence {training[index]!r} is too near to {tested!r}, which is for tests")
 
 
 def _steps(corpus: Corpus, encoder: Encoder, recipe: Recipe) -> Iterator[list[Batch]]:

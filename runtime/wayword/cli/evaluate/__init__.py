@@ -19,5 +19,5 @@ def evaluate() -> None:
     """Measure how well instructions are translated.
 
     The data files are JSON Lines (docs/language.md, section 7). The sets that ship with Wayword go by name:
-    benchmark, dev, activation, attack.
+    benchmark, dev, activation, attack, lampilot.
     """

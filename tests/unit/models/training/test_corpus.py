@@ -11,10 +11,10 @@ import pytest
 from tests.town import TOWN
 from wayword.compiler import VehicleStatus, compile_program
 from wayword.models import read_records
-from wayword.models.leakage import leaks, normal_form
 from wayword.models.training.augment import places
 from wayword.models.training.corpus import Corpus, data_folder
 from wayword.models.training.encoding import Sample
+from wayword.models.training.leakage import leaks, normal_form
 from wayword.models.training.recipe import Recipe
 
 RECIPE = Recipe()
