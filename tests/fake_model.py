@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from math import log
 
 from tests.programs import program
-from tests.town import TOWN
-from wayword.models import Completion, Message, Translator
+from wayword.models import Completion, Message
 
 REFUSAL = program("REJECT", reason="unrelated")
 
@@ -81,8 +80,3 @@ class BrokenModel(FakeModel):
         if messages[-1].content.endswith(self._breaks_at):
             raise KeyboardInterrupt
         return super().complete(messages, gbnf=gbnf, max_tokens=max_tokens, temperature=temperature, seed=seed)
-
-
-def translator(answers: Mapping[str, Answer | str] | None = None) -> Translator:
-    """A translator for the town that speaks with a fake model."""
-    return Translator(FakeModel(answers), TOWN)

@@ -95,6 +95,7 @@ def test_a_threshold_parts_the_right_from_the_wrong() -> None:
     assert choose_threshold([wrong, *results], least_coverage=0.75) == pytest.approx(0.5)
     assert choose_threshold([wrong, *results], least_coverage=0.95) == pytest.approx(0.15)
     assert choose_threshold(results) == pytest.approx(0.35)
+    assert choose_threshold(results, least_coverage=0.3) == pytest.approx(0.35), "no risk less, so the most coverage"
 
 
 def test_known_values() -> None:

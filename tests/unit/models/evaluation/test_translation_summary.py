@@ -1,6 +1,7 @@
 """Figures of an evaluation: translated, compared, added up."""
 
 import json
+from typing import NoReturn
 
 import pytest
 
@@ -29,7 +30,7 @@ RECORDS = [
     Record(id="c", instruction="Drive 250.", program=FAST, category="CONFIG", tags=("number", "absurd")),
     Record(id="d", instruction="How fast?", program=SPEED, category="INFO"),
 ]
-ANSWERS = {
+ANSWERS: dict[str, Answer | str] = {
     "Fifty.": program("SET_PARAM", max_vel="50.0 km/h"),
     "Left.": Answer(program("TURN", direction="right"), confidence=0.3),
     "Drive 250.": FAST,
@@ -109,9 +110,15 @@ def test_an_instruction_of_the_greatest_length_is_read() -> None:
     assert model.asked == [words]
 
 
+def test_an_instruction_of_which_nothing_can_be_seen_is_wrong_and_no_crash() -> None:
+    hidden = Record(id="1", instruction="\u200b\U000e0041", program=LEFT, category="COOPERATION")
+    (result,) = evaluate(hidden)
+    assert (result.got, result.correct) == ("", False)
+
+
 def test_a_prompt_that_the_model_has_no_room_for_is_wrong_and_no_crash() -> None:
     class Full(FakeModel):
-        def complete(self, *_: object, **__: object) -> None:  # type: ignore[override]
+        def complete(self, *_: object, **__: object) -> NoReturn:
             raise InstructionError("the prompt has 5000 tokens")
 
     (result,) = translate_all(translators(Full()), TOWN, RECORDS[:1])
