@@ -103,7 +103,9 @@ def kinds(path: Path) -> dict[str, GGMLQuantizationType]:
 def rounding(values: FloatArray) -> FloatArray:
     """Half a step of Q8_0 for each value: blocks of 32 share a scale, a 127th of their greatest, stored as float16."""
     blocks = np.abs(values).reshape(-1, 32).max(axis=1)
-    return np.repeat(blocks / 127 * 0.5 + blocks * 2.0**-11, 32).reshape(values.shape) + 1e-6
+    return np.asarray(
+        np.repeat(blocks / 127 * 0.5 + blocks * 2.0**-11, 32).reshape(values.shape) + 1e-6, dtype=np.float32
+    )
 
 
 # What is merged

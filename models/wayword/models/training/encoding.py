@@ -10,8 +10,9 @@ from wayword.models.chat import ChatTokenizer
 from wayword.models.prefix import common_prefix_length
 from wayword.models.prompt import prompt_messages
 
-# Largest size of a batch, padding included: enough to keep the cores busy, little enough to waste no padding.
-PADDED_TOKENS = 1500
+# Largest number of tokens in a chunk, padding included: enough to keep the cores busy, and few enough that sequences
+# of a chunk, which are sorted by length, need little padding.
+_CHUNK_TOKENS = 640
 
 # What the grammar forces once its first token is out.
 _KEY_WORDS = re.compile(r"(?m)^(command_type:|action:|parameters:|  - name:|    value:)")
@@ -42,10 +43,20 @@ class TokenSequence:
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """Sequences with the tokens that all of them begin with, which are evaluated once."""
+    """Sequences that begin with the same tokens, which are evaluated once.
+
+    Attributes:
+        prefix: These tokens.
+        chunks: The sequences; those of a chunk are of similar length and are evaluated side by side.
+    """
 
     prefix: list[int]
-    sequences: list[TokenSequence]
+    chunks: list[list[TokenSequence]]
+
+    @property
+    def sequences(self) -> list[TokenSequence]:
+        """All sequences, chunk by chunk."""
+        return [sequence for chunk in self.chunks for sequence in chunk]
 
 
 class Encoder:
@@ -61,15 +72,15 @@ class Encoder:
         self._structure_share = structure_share
 
     def batches(self, samples: Sequence[Sample], rng: Random) -> list[Batch]:
-        """Encodes the samples of a step as batches of equal scene and similar length."""
+        """Encodes the samples of a step as batches of equal scene."""
         scenes: dict[str, list[Sample]] = {}
         for sample in samples:
             scenes.setdefault(f"{sample.places}{sample.status!r}", []).append(sample)
         alone = [group[0] for group in scenes.values() if len(group) == 1]
         groups = [group for group in scenes.values() if len(group) > 1] + ([alone] if alone else [])
-        return [batch for group in groups for batch in self._batches_of(group, rng)]
+        return [self._batch(group, rng) for group in groups]
 
-    def _batches_of(self, samples: Sequence[Sample], rng: Random) -> Iterator[Batch]:
+    def _batch(self, samples: Sequence[Sample], rng: Random) -> Batch:
         encoded = [self._encode(sample, rng) for sample in samples]
         # Whatever prefix the prompts have in common is the batch's, but for one token, so that even equal prompts
         # leave a position to predict the program's first token from.
@@ -80,14 +91,7 @@ class Encoder:
             for tokens, start, counted in encoded
         ]
         sequences.sort(key=lambda sequence: len(sequence.tokens))
-        prefix = encoded[0][0][:shared]
-        chunk: list[TokenSequence] = []
-        for sequence in sequences:
-            if chunk and len(sequence.tokens) * (len(chunk) + 1) > PADDED_TOKENS:
-                yield Batch(prefix, chunk)
-                chunk = []
-            chunk.append(sequence)
-        yield Batch(prefix, chunk)
+        return Batch(encoded[0][0][:shared], list(_chunks(sequences)))
 
     def _encode(self, sample: Sample, rng: Random) -> tuple[list[int], int, list[int]]:
         """The tokens of prompt and program, where the program starts, and which of its tokens count."""
@@ -106,3 +110,14 @@ class Encoder:
                 counted.append(index)
             offset += len(self._tokenizer.piece(token))
         return [*counted, len(answer) - 1]
+
+
+def _chunks(sequences: Sequence[TokenSequence]) -> Iterator[list[TokenSequence]]:
+    """Cuts sequences, sorted by length, into chunks."""
+    chunk: list[TokenSequence] = []
+    for sequence in sequences:
+        if chunk and len(sequence.tokens) * (len(chunk) + 1) > _CHUNK_TOKENS:
+            yield chunk
+            chunk = []
+        chunk.append(sequence)
+    yield chunk

@@ -15,6 +15,7 @@ from wayword.models.datasets import DATA, TEST_SETS
 from wayword.models.evaluation.plots import plot_training
 from wayword.models.training.corpus import Corpus
 from wayword.models.training.encoding import Batch, Encoder, Sample
+from wayword.models.training.epoch import epoch, steps_per_epoch
 from wayword.models.training.export import read_adapter, write_adapter
 from wayword.models.training.leakage import leaks
 from wayword.models.training.loop import Run, Step, TrainingError
@@ -80,7 +81,7 @@ def fine_tune(
     model = load_with_adapters(base, recipe)
     if start_from is not None:
         read_adapter(model, start_from)
-    steps = recipe.epochs * corpus.steps_per_epoch(recipe.batch_size)
+    steps = recipe.epochs * steps_per_epoch(corpus, recipe)
     run = Run(folder, model, recipe, steps)
     dev_batches = encoder.batches([_sample(record, corpus.town) for record in dev], Random(recipe.seed))
     on_start(run)
@@ -110,8 +111,8 @@ def _refuse_leaks(corpus: Corpus) -> None:
 
 def _steps(corpus: Corpus, encoder: Encoder, recipe: Recipe) -> Iterator[list[Batch]]:
     rng = Random(f"{recipe.seed}/encoding")
-    for epoch in range(recipe.epochs):
-        for samples in corpus.epoch(epoch, recipe.batch_size, recipe.scene_share, recipe.seed):
+    for number in range(recipe.epochs):
+        for samples in epoch(corpus, recipe, number):
             yield encoder.batches(samples, rng)
 
 

@@ -1,5 +1,6 @@
 """The model that is trained: the default GGUF's weights in torch, with LoRA adapters."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import torch
@@ -7,7 +8,7 @@ from peft import LoraConfig, PeftModel, get_peft_model
 from torch.nn import functional
 from transformers import AutoModelForCausalLM, DynamicCache
 
-from wayword.models.training.encoding import Batch
+from wayword.models.training.encoding import Batch, TokenSequence
 from wayword.models.training.recipe import Recipe
 
 # transformers' names of the projections that get an adapter.
@@ -34,24 +35,44 @@ def target_logits(model: PeftModel, batch: Batch) -> tuple[torch.Tensor, torch.T
 
     Returns:
         Logits, shape (targets, vocabulary), float32; the tokens they should predict, shape (targets,); the number of
-        the sequence that each belongs to, shape (targets,).
+        the sequence that each belongs to, shape (targets,). Sequences are numbered as in ``batch.sequences``.
     """
     causal = model.get_base_model()
-    rows = len(batch.sequences)
-    width = max(len(sequence.tokens) for sequence in batch.sequences)
-    tokens = torch.zeros((rows, width), dtype=torch.long)  # padded on the right, where causal attention never looks
-    for row, sequence in enumerate(batch.sequences):
-        tokens[row, : len(sequence.tokens)] = torch.tensor(sequence.tokens)
-    row_of = torch.tensor([row for row, sequence in enumerate(batch.sequences) for _ in sequence.targets])
-    position = torch.tensor([target for sequence in batch.sequences for target in sequence.targets])
+    hidden, wanted, row_of = [], [], []
     with torch.autocast("cpu", torch.bfloat16):
-        cache = DynamicCache()
+        prefix = DynamicCache()
         if batch.prefix:
-            causal.model(input_ids=torch.tensor([batch.prefix]), past_key_values=cache, use_cache=True)
-            cache.batch_repeat_interleave(rows)
-        hidden = causal.model(input_ids=tokens, past_key_values=cache, use_cache=True).last_hidden_state
-        logits = causal.lm_head(hidden[row_of, position - 1])
-    return logits.float(), tokens[row_of, position], row_of
+            causal.model(input_ids=torch.tensor([batch.prefix]), past_key_values=prefix, use_cache=True)
+        first = 0
+        for chunk in batch.chunks:
+            tokens = _padded(chunk)
+            states = causal.model(
+                input_ids=tokens, past_key_values=_repeated(prefix, len(chunk)), use_cache=True
+            ).last_hidden_state
+            row = torch.tensor([number for number, sequence in enumerate(chunk) for _ in sequence.targets])
+            position = torch.tensor([target for sequence in chunk for target in sequence.targets])
+            hidden.append(states[row, position - 1])
+            wanted.append(tokens[row, position])
+            row_of.append(row + first)
+            first += len(chunk)
+        logits = causal.lm_head(torch.cat(hidden))
+    return logits.float(), torch.cat(wanted), torch.cat(row_of)
+
+
+def _padded(chunk: Sequence[TokenSequence]) -> torch.Tensor:
+    """The tokens of a chunk, padded on the right, where causal attention never looks."""
+    tokens = torch.zeros((len(chunk), max(len(sequence.tokens) for sequence in chunk)), dtype=torch.long)
+    for row, sequence in enumerate(chunk):
+        tokens[row, : len(sequence.tokens)] = torch.tensor(sequence.tokens)
+    return tokens
+
+
+def _repeated(prefix: DynamicCache, rows: int) -> DynamicCache:
+    """Keys and values of the prefix for each of some rows; gradients flow back to the one original."""
+    repeated = DynamicCache()
+    for number, layer in enumerate(prefix.layers):
+        repeated.update(layer.keys.expand(rows, -1, -1, -1), layer.values.expand(rows, -1, -1, -1), number)
+    return repeated
 
 
 def loss_of(model: PeftModel, batch: Batch) -> torch.Tensor:

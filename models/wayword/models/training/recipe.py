@@ -16,7 +16,7 @@ class Recipe(BaseModel):
         gradient_clip: Largest norm of a step's gradient.
         epochs: Number of passes over the hand-written sentences; each pass augments them anew.
         batch_size: Instructions in a step.
-        scene_share: Share of the batches that take place on the town map with a parked vehicle, the default scene.
+        scene_share: Share of the instructions spoken on the town map to a parked vehicle, the default scene.
         structure_share: Share of the instructions whose loss counts a program's key words too, which the grammar
             forces. The rest learns where there is a choice.
         seed: Of everything random.
@@ -27,12 +27,12 @@ class Recipe(BaseModel):
     rank: int = Field(default=16, ge=1)
     alpha: float = Field(default=32.0, gt=0)
     frozen_layers: int = Field(default=6, ge=0)
-    learning_rate: float = Field(default=1.5e-3, gt=0)
+    learning_rate: float = Field(default=1.2e-3, gt=0)
     warmup_steps: int = Field(default=40, ge=0)
     weight_decay: float = Field(default=0.01, ge=0)
     gradient_clip: float = Field(default=1.0, gt=0)
     epochs: int = Field(default=3, ge=1)
-    batch_size: int = Field(default=48, ge=1)
+    batch_size: int = Field(default=24, ge=1)
     scene_share: float = Field(default=0.5, ge=0, le=1)
     structure_share: float = Field(default=0.15, ge=0, le=1)
     seed: int = 0

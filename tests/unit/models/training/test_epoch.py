@@ -14,6 +14,7 @@ from wayword.models import read_records
 from wayword.models.training.augment import places
 from wayword.models.training.corpus import Corpus, data_folder
 from wayword.models.training.encoding import Sample
+from wayword.models.training.epoch import epoch, steps_per_epoch
 from wayword.models.training.leakage import leaks, normal_form
 from wayword.models.training.recipe import Recipe
 
@@ -29,7 +30,7 @@ def corpus() -> Iterator[Corpus]:
 
 @cache
 def steps(corpus: Corpus, number: int = 0, *, seed: int = RECIPE.seed, scene_share: float = 0.5) -> list[list[Sample]]:
-    return list(corpus.epoch(number, RECIPE.batch_size, scene_share, seed))
+    return list(epoch(corpus, RECIPE.model_copy(update={"seed": seed, "scene_share": scene_share}), number))
 
 
 def samples(corpus: Corpus, number: int = 0, *, scene_share: float = 0.5) -> list[Sample]:
@@ -81,7 +82,7 @@ def test_equal_seeds_give_equal_epochs_and_others_others(corpus: Corpus) -> None
 
 def test_an_epoch_has_the_steps_that_it_says(corpus: Corpus) -> None:
     sizes = [len(step) for step in steps(corpus)]
-    assert len(sizes) == corpus.steps_per_epoch(RECIPE.batch_size)
+    assert len(sizes) == steps_per_epoch(corpus, RECIPE)
     assert max(sizes) <= RECIPE.batch_size
     assert sum(sizes) > len(corpus.sentences)
 
