@@ -2,11 +2,17 @@
 
 import pytest
 
-from wayword.models import model_path
+from wayword.models import find_weights, model_path
 from wayword.models.embedded import EmbeddedModel
 
 
 @pytest.fixture(scope="session")
 def embedded_model() -> EmbeddedModel:
-    """The real default model, loaded once."""
+    """The bare default model, loaded once."""
     return EmbeddedModel(model_path())
+
+
+@pytest.fixture(scope="session")
+def tuned_model() -> EmbeddedModel:
+    """The default model with its adapter, loaded once."""
+    return EmbeddedModel(find_weights().path)

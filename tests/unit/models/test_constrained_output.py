@@ -6,6 +6,7 @@ from multiprocessing import get_context
 
 import pytest
 
+from tests.programs import program
 from tests.town import TOWN
 from tests.unit.models.hot_generation import generate, one_command
 from wayword.compiler import compile_program
@@ -51,12 +52,12 @@ def test_a_place_that_is_not_on_the_map_cannot_be_said(embedded_model: EmbeddedM
         parser("start").parse(program)
 
 
-def test_translation_is_deterministic_and_reports_its_cost(embedded_model: EmbeddedModel) -> None:
-    translator = Translator(embedded_model, TOWN)
+def test_translation_is_deterministic_and_reports_its_cost(tuned_model: EmbeddedModel) -> None:
+    translator = Translator(tuned_model, TOWN)
     translator.prepare()
     one, other = translator.translate("Go faster."), translator.translate("Go faster.")
     assert one.program == other.program
-    assert compile_program(one.program, TOWN).ok
+    assert one.program == program("ADJUST_PARAM", max_vel="increase")
     assert one.tokens > 10
     assert one.latency_ms > 0
     assert 0 < one.confidence <= 1

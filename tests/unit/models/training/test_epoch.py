@@ -62,7 +62,7 @@ def held_out() -> list[str]:
 
 
 def test_no_sample_equals_a_sentence_of_a_test_set(run: list[Sample]) -> None:
-    forms = {normal_form(instruction) for instruction in held_out()}
+    forms = {normal_form(instruction) for instruction in held_out()} - {""}  # of texts without Latin letters
     assert len(forms) > 1000
     assert forms.isdisjoint(normal_form(sample.instruction) for sample in run)
 
