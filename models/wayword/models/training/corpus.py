@@ -6,7 +6,9 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from random import Random
 
-from wayword.models.dataset import Record, parse_records
+from wayword.models.dataset import Record, parse_records, read_records
+from wayword.models.datasets import DATA, TEST_SETS
+from wayword.models.training.leakage import normal_form
 
 
 def data_folder() -> Traversable:
@@ -57,6 +59,12 @@ class Corpus:
     def unknown_places(self) -> list[str]:
         """Names of places that are on no map."""
         return self._folder.joinpath("unknown_places.txt").read_text(encoding="utf-8").split("\n")[:-1]
+
+    @cached_property
+    def held_out(self) -> frozenset[str]:
+        """Normal forms of all sentences that are meant for testing; no variation may equal one."""
+        records = (record for name in TEST_SETS for record in read_records(DATA / f"{name}.jsonl"))
+        return frozenset(normal_form(record.instruction) for record in records)
 
     def _read(self, name: str) -> list[Record]:
         return list(parse_records(self._folder.joinpath(name).read_text(encoding="utf-8"), name))

@@ -13,6 +13,7 @@ from wayword.models.training.augment.numbers import find_numbers, find_ordinals
 from wayword.models.training.augment.quantities import vary_quantities
 from wayword.models.training.corpus import Corpus
 from wayword.models.training.encoding import Sample
+from wayword.models.training.leakage import normal_form
 from wayword.models.training.recipe import Recipe
 
 # Shares of an epoch beside the hand-written sentences themselves, relative to their number.
@@ -37,8 +38,8 @@ def epoch(corpus: Corpus, recipe: Recipe, number: int) -> Iterator[list[Sample]]
     """The steps of one pass, augmented anew; equal numbers and recipes give equal samples."""
     rng = Random(f"{recipe.seed}/{number}")
     for scene, records in _plan(corpus, recipe, rng):
-        samples = [_sample(record, scene, corpus, rng) for record in records]
-        yield [sample for sample in samples if sample is not None]
+        samples = (_sample(record, scene, corpus, rng) for record in records)
+        yield [s for s in samples if s is not None and normal_form(s.instruction) not in corpus.held_out]
 
 
 def steps_per_epoch(corpus: Corpus, recipe: Recipe) -> int:
